@@ -1,0 +1,35 @@
+#include "core/failure.h"
+
+namespace plat {
+
+std::string_view failure_name(FailureCode code) {
+  switch (code) {
+    case FailureCode::kEmptyGeometry:
+      return "empty_geometry";
+    case FailureCode::kNotSimple:
+      return "not_simple";
+    case FailureCode::kBadHole:
+      return "bad_hole";
+    case FailureCode::kTooManyVertices:
+      return "too_many_vertices";
+    case FailureCode::kNotFinite:
+      return "not_finite";
+    case FailureCode::kTooSmall:
+      return "too_small";
+    case FailureCode::kNoSkeleton:
+      return "no_skeleton";
+    case FailureCode::kTimeLimit:
+      return "time_limit";
+    case FailureCode::kNotCovered:
+      return "not_covered";
+    case FailureCode::kNoConvergence:
+      return "no_convergence";
+    case FailureCode::kNoObservation:
+      return "no_observation";
+    case FailureCode::kNoStreet:
+      return "no_street";
+  }
+  return "unknown";
+}
+
+}  // namespace plat

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+
+#include "core/polygon.h"
+
+namespace plat::parcels {
+
+/// What the observed parcels of one block look like: the attributes that [VKW12, Sec. 6 (ii)]
+/// extracts per block. Deviations are those of the sample (n - 1), 0 for a single parcel.
+struct ParcelStyle {
+  std::size_t count = 0;
+  double area_mean_m2 = 0.0;
+  double area_deviation_m2 = 0.0;
+  double width_mean_m = 0.0;  ///< of the shorter side of each parcel's oriented bounding box
+  double width_deviation_m = 0.0;
+};
+
+/// Pre: every polygon has an area.
+ParcelStyle style_of(std::span<const Polygon> parcels);
+
+/// mean +- k deviations, the lower end kept above `floor` [VKW12, Sec. 6]: the paper's A_min = mean
+/// - k s turns negative where the deviation is large.
+struct Bounds {
+  double low = 0.0;
+  double high = 0.0;
+};
+Bounds bounds_around(double mean, double deviation, double k, double floor);
+
+}  // namespace plat::parcels
