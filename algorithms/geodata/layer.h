@@ -10,11 +10,12 @@
 
 namespace plat::geodata {
 
-/// Where local coordinates are on Earth: metres east and north of `origin` in a projected, metric CRS.
-/// Degrees and projections stay in this stage (DESIGN, decision 4).
+/// Where local coordinates are on Earth: metres east and north of `origin` in a projected, metric
+/// CRS. Degrees and projections stay in this stage (DESIGN, decision 4).
 struct LocalFrame {
-  std::string crs_wkt;  ///< WKT2 of the projected CRS, axes east and north, metres; empty if unknown
-  Point origin;         ///< of the local frame, in that CRS; whole metres
+  std::string
+      crs_wkt;   ///< WKT2 of the projected CRS, axes east and north, metres; empty if unknown
+  Point origin;  ///< of the local frame, in that CRS; whole metres
 
   friend bool operator==(const LocalFrame&, const LocalFrame&) = default;
 };
@@ -28,8 +29,9 @@ struct FieldSchema {
   FieldType type = FieldType::kText;
 };
 
-/// One feature in the local frame; multi-part geometries have several entries of one kind. Coordinates are as
-/// observed: no snapping, no repair. Rings are not closed; orientation is as Polygon wants it.
+/// One feature in the local frame; multi-part geometries have several entries of one kind.
+/// Coordinates are as observed: no snapping, no repair. Rings are not closed; orientation is as
+/// Polygon wants it.
 struct Feature {
   std::string id;  ///< the feature id in the file, or the id that the writer gives
   std::vector<Polygon> polygons;
