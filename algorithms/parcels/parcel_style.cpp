@@ -40,8 +40,9 @@ ParcelStyle style_of(std::span<const Polygon> parcels) {
 }
 
 Bounds bounds_around(double mean, double deviation, double k, double floor) {
-  const double low = std::max(floor, mean - k * deviation);
-  return {low, std::max(low, mean + k * deviation)};
+  const double half_range = std::max(k * deviation, 0.1 * mean);
+  const double low = std::max(floor, mean - half_range);
+  return {low, std::max(low, mean + half_range)};
 }
 
 }  // namespace plat::parcels

@@ -19,8 +19,12 @@ struct ParcelStyle {
 /// Pre: every polygon has an area.
 ParcelStyle style_of(std::span<const Polygon> parcels);
 
-/// mean +- k deviations, the lower end kept above `floor` [VKW12, Sec. 6]: the paper's A_min = mean
-/// - k s turns negative where the deviation is large.
+/// The fitted upper bound of area in a block that was observed as one parcel: none.
+inline constexpr double kUndivided_m2 = 1e12;
+
+/// mean +- max(k deviations, 10 % of the mean), the lower end kept above `floor` [VKW12, Sec. 6].
+/// Deviation: the paper's A_min = mean - k s turns negative where the deviation is large, and its
+/// bounds are a single number where all parcels are equal, which no subdivision can hit (ADR 0004).
 struct Bounds {
   double low = 0.0;
   double high = 0.0;

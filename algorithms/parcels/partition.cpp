@@ -1,0 +1,340 @@
+#include "parcels/partition.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace plat::parcels {
+namespace {
+
+/// Faces on the inner side of the contour, found by walking from face to face across cuts only.
+std::vector<bool> find_inside(const PlanarGraph& graph, const PlanarFaces& faces,
+                              std::size_t contour_size) {
+  enum : char { kUnknown, kInside, kOut };
+  std::vector<char> state(faces.faces.size(), kUnknown);
+  std::vector<std::uint32_t> open;
+  const auto mark = [&](std::uint32_t face, char value) {
+    if (face == PlanarFaces::kUnbounded || state[face] != kUnknown) return;
+    state[face] = value;
+    open.push_back(face);
+  };
+  for (std::uint32_t e = 0; e < graph.edges.size(); ++e) {
+    if (graph.edges[e].source >= contour_size) continue;
+    mark(faces.face_of[2 * e], kInside);  // contour edges run with the block on their left
+    mark(faces.face_of[2 * e + 1], kOut);
+  }
+  while (!open.empty()) {
+    const std::uint32_t f = open.back();
+    open.pop_back();
+    const auto cross = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge h : walk) {
+        if (graph.edges[edge_of(h)].source >= contour_size) mark(faces.face_of[twin(h)], state[f]);
+      }
+    };
+    cross(faces.faces[f].outer);
+    for (const auto& island : faces.faces[f].islands) cross(island);
+  }
+  std::vector<bool> is_inside(state.size());
+  for (std::size_t f = 0; f < state.size(); ++f) is_inside[f] = state[f] == kInside;
+  return is_inside;
+}
+
+bool has_contour_overlap(const PlanarGraph& graph, std::size_t contour_size) {
+  return std::any_of(graph.overlaps.begin(), graph.overlaps.end(),
+                     [&](const PlanarGraph::Overlap& o) { return o.source < contour_size; });
+}
+
+/// Cuts with a node on an edge that two contour edges share after noding.
+std::vector<std::uint32_t> find_closing_cuts(const PlanarGraph& graph, std::size_t contour_size) {
+  std::vector<bool> is_shared(graph.nodes.size(), false);
+  for (const PlanarGraph::Overlap& o : graph.overlaps) {
+    if (o.source >= contour_size) continue;
+    is_shared[graph.edges[o.edge].from] = true;
+    is_shared[graph.edges[o.edge].to] = true;
+  }
+  std::vector<std::uint32_t> out;
+  for (const PlanarGraph::Edge& e : graph.edges) {
+    if (e.source >= contour_size && (is_shared[e.from] || is_shared[e.to])) out.push_back(e.source);
+  }
+  // A cut may have run along the contour only, under another source.
+  for (const PlanarGraph::Overlap& o : graph.overlaps) {
+    const PlanarGraph::Edge& e = graph.edges[o.edge];
+    if (o.source >= contour_size && (is_shared[e.from] || is_shared[e.to])) out.push_back(o.source);
+  }
+  return out;
+}
+
+}  // namespace
+
+Expected<BlockPartition> BlockPartition::cut(const blocks::Block& block,
+                                             std::span<const Segment> cuts) {
+  BlockPartition out;
+  out.block_ = &block;
+  std::vector<Segment> segments;
+  for (std::uint32_t r = 0; r <= block.contour.holes.size(); ++r) {
+    const Ring& ring = blocks::ring_at(block, r);
+    for (std::uint32_t i = 0; i < ring.size(); ++i) {
+      segments.push_back({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]});
+      out.contour_edges_.push_back({r, i});
+    }
+  }
+  const std::size_t contour_size = segments.size();
+  segments.insert(segments.end(), cuts.begin(), cuts.end());
+  PlanarGraph noded = node_segments(segments);
+  // A cut that ends within a grid step of the tip of a spike would close it: such cuts are left out, one by one where
+  // need be.
+  for (std::vector<std::uint32_t> closing = find_closing_cuts(noded, contour_size); !closing.empty();
+       closing = find_closing_cuts(noded, contour_size)) {
+    for (const std::uint32_t source : closing) segments[source].b = segments[source].a;
+    noded = node_segments(segments);
+  }
+  if (has_contour_overlap(noded, contour_size)) {
+    return fail(FailureCode::kNotSimple, "the contour touches itself within a grid step");
+  }
+  out.graph_ = without_edges(noded, find_dead_ends(noded));
+  const PlanarFaces faces = find_faces(out.graph_);
+  out.number_cells(faces, find_inside(out.graph_, faces, contour_size));
+  if (out.cell_faces_.empty())
+    return fail(FailureCode::kEmptyGeometry, "nothing is left of the block after noding");
+  return out;
+}
+
+void BlockPartition::number_cells(const PlanarFaces& faces, const std::vector<bool>& is_inside) {
+  // Order: first contact with the contour (ring, edge, distance along it), then lowest half-edge
+  // for inner cells.
+  struct Key {
+    ContourEdge edge{0xffffffffU, 0xffffffffU};
+    double along = 0.0;
+    std::uint32_t face = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys;
+  for (std::uint32_t f = 0; f < faces.faces.size(); ++f) {
+    if (!is_inside[f]) continue;
+    Key key{{0xffffffffU, 0xffffffffU}, 0.0, f};
+    const auto scan = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge h : walk) {
+        const auto edge = contour_edge(edge_of(h));
+        if (!edge) continue;
+        const Point start = blocks::ring_at(*block_, edge->ring)[edge->index];
+        key = std::min(key, Key{*edge, distance(start, graph_.nodes[origin(graph_, h)]), f});
+      }
+    };
+    scan(faces.faces[f].outer);
+    for (const auto& island : faces.faces[f].islands) scan(island);
+    keys.push_back(key);
+  }
+  std::sort(keys.begin(), keys.end());
+
+  const std::size_t half_edges = 2 * graph_.edges.size();
+  next_.assign(half_edges, 0);
+  cell_of_.assign(half_edges, kOutside);
+  for (const Key& key : keys) {
+    const auto cell = static_cast<std::uint32_t>(cell_faces_.size());
+    const Face& face = faces.faces[key.face];
+    const auto link = [&](const std::vector<HalfEdge>& walk) {
+      for (std::size_t i = 0; i < walk.size(); ++i) {
+        next_[walk[i]] = walk[i + 1 == walk.size() ? 0 : i + 1];
+        cell_of_[walk[i]] = cell;
+      }
+    };
+    link(face.outer);
+    for (const auto& island : face.islands) link(island);
+    cell_faces_.push_back(face);
+    cell_areas_.push_back(plat::area_m2(polygon_of(graph_, face)));
+    region_of_cell_.push_back(cell);
+    cells_of_region_.push_back({cell});
+  }
+  region_areas_ = cell_areas_;
+}
+
+std::optional<ContourEdge> BlockPartition::contour_edge(std::uint32_t edge) const {
+  const std::uint32_t source = graph_.edges[edge].source;
+  if (source >= contour_edges_.size()) return std::nullopt;
+  return contour_edges_[source];
+}
+
+std::uint32_t BlockPartition::region_left_of(HalfEdge h) const {
+  return cell_of_[h] == kOutside ? kOutside : region_of_cell_[cell_of_[h]];
+}
+
+Polygon BlockPartition::cell_polygon(std::uint32_t cell) const {
+  return polygon_of(graph_, cell_faces_[cell]);
+}
+
+std::vector<std::uint32_t> BlockPartition::regions() const {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t r = 0; r < cells_of_region_.size(); ++r) {
+    if (!cells_of_region_[r].empty()) out.push_back(r);
+  }
+  return out;
+}
+
+std::vector<std::vector<HalfEdge>> BlockPartition::boundary_walks(std::uint32_t region) const {
+  const auto is_boundary = [&](HalfEdge h) { return region_left_of(twin(h)) != region; };
+  std::vector<HalfEdge> starts;
+  for (const std::uint32_t cell : cells_of_region_[region]) {
+    const auto collect = [&](const std::vector<HalfEdge>& walk) {
+      std::copy_if(walk.begin(), walk.end(), std::back_inserter(starts), is_boundary);
+    };
+    collect(cell_faces_[cell].outer);
+    for (const auto& island : cell_faces_[cell].islands) collect(island);
+  }
+  std::sort(starts.begin(), starts.end());
+  std::vector<bool> is_done(starts.size(), false);
+  std::vector<std::vector<HalfEdge>> walks;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (is_done[i]) continue;
+    std::vector<HalfEdge> walk;
+    HalfEdge h = starts[i];
+    do {
+      walk.push_back(h);
+      is_done[static_cast<std::size_t>(std::lower_bound(starts.begin(), starts.end(), h) -
+                                       starts.begin())] = true;
+      h = next_[h];
+      while (!is_boundary(h))
+        h = next_[twin(h)];  // turn around the node through the region's inside
+    } while (h != starts[i]);
+    walks.push_back(std::move(walk));
+  }
+  return walks;
+}
+
+Polygon BlockPartition::polygon(std::uint32_t region) const {
+  return polygon_of(graph_, boundary_walks(region));
+}
+
+std::vector<BlockPartition::Border> BlockPartition::borders(std::uint32_t region) const {
+  std::vector<Border> out;
+  for (const std::uint32_t cell : cells_of_region_[region]) {
+    const auto collect = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge h : walk) {
+        const std::uint32_t other = region_left_of(twin(h));
+        if (other == region || other == kOutside) continue;
+        out.push_back(
+            {other, distance(graph_.nodes[origin(graph_, h)], graph_.nodes[target(graph_, h)])});
+      }
+    };
+    collect(cell_faces_[cell].outer);
+    for (const auto& island : cell_faces_[cell].islands) collect(island);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Border& a, const Border& b) { return a.neighbour < b.neighbour; });
+  std::vector<Border> summed;
+  for (const Border& border : out) {
+    if (!summed.empty() && summed.back().neighbour == border.neighbour) {
+      summed.back().length_m += border.length_m;
+    } else {
+      summed.push_back(border);
+    }
+  }
+  return summed;
+}
+
+std::optional<std::uint32_t> BlockPartition::longest_neighbour(std::uint32_t region) const {
+  const std::vector<Border> all = borders(region);
+  const auto longest =
+      std::max_element(all.begin(), all.end(),
+                       [](const Border& a, const Border& b) { return a.length_m < b.length_m; });
+  if (longest == all.end()) return std::nullopt;
+  return longest->neighbour;
+}
+
+double BlockPartition::frontage_m(std::uint32_t region) const {
+  double sum = 0.0;
+  for (const std::uint32_t cell : cells_of_region_[region]) {
+    const auto collect = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge h : walk) {
+        const auto edge = contour_edge(edge_of(h));
+        if (!edge || !block_->edges[edge->ring][edge->index].is_street()) continue;
+        sum += distance(graph_.nodes[origin(graph_, h)], graph_.nodes[target(graph_, h)]);
+      }
+    };
+    collect(cell_faces_[cell].outer);
+    for (const auto& island : cell_faces_[cell].islands) collect(island);
+  }
+  return sum;
+}
+
+void BlockPartition::join(std::uint32_t region, std::uint32_t other) {
+  expects(region != other, "a region joins another one");
+  for (const std::uint32_t cell : cells_of_region_[other]) region_of_cell_[cell] = region;
+  auto& cells = cells_of_region_[region];
+  cells.insert(cells.end(), cells_of_region_[other].begin(), cells_of_region_[other].end());
+  cells_of_region_[other].clear();
+  region_areas_[region] += region_areas_[other];
+}
+
+void BlockPartition::join_slivers(double area_m2) {
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> smallest;
+  for (const std::uint32_t r : regions()) {
+    if (region_areas_[r] < area_m2) smallest.emplace(region_areas_[r], r);
+  }
+  while (!smallest.empty()) {
+    const auto [area, r] = smallest.top();
+    smallest.pop();
+    if (cells_of_region_[r].empty() || region_areas_[r] != area) continue;
+    const auto neighbour = longest_neighbour(r);
+    if (!neighbour) continue;
+    join(*neighbour, r);
+    if (region_areas_[*neighbour] < area_m2)
+      smallest.emplace(region_areas_[*neighbour], *neighbour);
+  }
+}
+
+std::vector<Parcel> BlockPartition::parcels() const {
+  // A node stays in the rings if three or more boundaries meet in it, if the two that meet there
+  // bend, or if it is a vertex of the contour.
+  struct Meeting {
+    int count = 0;
+    std::uint32_t ends[2] = {0, 0};
+    std::uint32_t sources[2] = {0, 0};
+  };
+  std::vector<Meeting> meetings(graph_.nodes.size());
+  for (std::uint32_t e = 0; e < graph_.edges.size(); ++e) {
+    if (region_left_of(2 * e) == region_left_of(2 * e + 1)) continue;
+    const auto meet = [&](std::uint32_t at, std::uint32_t other) {
+      Meeting& m = meetings[at];
+      if (m.count < 2) {
+        m.ends[m.count] = other;
+        m.sources[m.count] = graph_.edges[e].source;
+      }
+      ++m.count;
+    };
+    meet(graph_.edges[e].from, graph_.edges[e].to);
+    meet(graph_.edges[e].to, graph_.edges[e].from);
+  }
+  const auto is_kept = [&](std::uint32_t node) {
+    const Meeting& m = meetings[node];
+    const bool is_contour_vertex =
+        m.sources[0] != m.sources[1] && m.sources[0] < contour_edges_.size();
+    return m.count != 2 || is_contour_vertex ||
+           orientation(graph_.nodes[m.ends[0]], graph_.nodes[node], graph_.nodes[m.ends[1]]) != 0.0;
+  };
+  std::vector<Parcel> out;
+  for (const std::uint32_t region : regions()) {
+    Parcel parcel{ParcelId{static_cast<std::uint32_t>(out.size())}, {}};
+    double outer_area = 0.0;
+    for (const auto& walk : boundary_walks(region)) {
+      for (const auto& part : split_at_repeated_nodes(graph_, walk)) {
+        Ring ring;
+        for (const HalfEdge h : part) {
+          if (is_kept(origin(graph_, h))) ring.push_back(graph_.nodes[origin(graph_, h)]);
+        }
+        const double area = signed_area_m2(ring);
+        if (area < 0.0) {
+          parcel.shape.holes.push_back(std::move(ring));
+        } else if (area > outer_area) {
+          outer_area = area;
+          parcel.shape.outer = std::move(ring);
+        }
+      }
+    }
+    out.push_back(std::move(parcel));
+  }
+  return out;
+}
+
+}  // namespace plat::parcels

@@ -1,0 +1,123 @@
+#include "parcels/skeleton_subdivider.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "parcels/contour_simplification.h"
+#include "parcels/partition.h"
+#include "parcels/slices.h"
+
+namespace plat::parcels {
+namespace {
+
+/// Cells below this are leftovers of rounding, not lots.
+constexpr double kSliver_m2 = 0.5;
+/// A vertex that turns by less is no corner of a lot.
+constexpr double kCornerTurn_rad = 0.175;  // 10 degrees
+/// More vertices than this are simplified away first, in steps: time grows with their square and
+/// worse.
+constexpr std::size_t kComfortableVertices = 300;
+constexpr double kCoarsest_m = 4.0;
+
+int corner_count(const Ring& ring) {
+  int corners = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point in = ring[i] - ring[(i + ring.size() - 1) % ring.size()];
+    const Point out = ring[(i + 1) % ring.size()] - ring[i];
+    if (std::abs(std::atan2(cross(in, out), dot(in, out))) > kCornerTurn_rad) ++corners;
+  }
+  return corners;
+}
+
+bool is_triangular(const Polygon& polygon) {
+  return polygon.holes.empty() && corner_count(polygon.outer) == 3;
+}
+
+/// Joins regions that `must_join` names to their longest neighbour, smallest first, until none is
+/// left or only one region is [VKW12, Sec. 4.2.3, last item].
+template <class MustJoin>
+void join_while(BlockPartition& partition, MustJoin must_join) {
+  using Entry = std::pair<double, std::uint32_t>;
+  std::set<Entry> open;
+  const auto consider = [&](std::uint32_t region) {
+    if (must_join(region)) open.emplace(partition.area_m2(region), region);
+  };
+  for (const std::uint32_t region : partition.regions()) consider(region);
+  while (!open.empty()) {
+    const auto [area, region] = *open.begin();
+    open.erase(open.begin());
+    const auto neighbour = partition.longest_neighbour(region);
+    if (!neighbour) continue;
+    open.erase({partition.area_m2(*neighbour), *neighbour});
+    partition.join(*neighbour, region);
+    consider(*neighbour);
+  }
+}
+
+/// Every outer edge a street where no edge is: a block about whose surroundings nothing is known.
+void assume_streets(blocks::Block& block) {
+  const auto is_street = [](const blocks::BlockEdge& e) { return e.is_street(); };
+  for (const auto& ring : block.edges) {
+    if (std::any_of(ring.begin(), ring.end(), is_street)) return;
+  }
+  block.edges = blocks::block_from_contour(block.id, block.contour).edges;
+}
+
+Expected<StripLayout> lay_out(const blocks::Block& block, double simplify_m, CornerScheme corners) {
+  for (;;) {
+    LabelledContour contour = simplify_contour(block, simplify_m);
+    const bool is_coarsest = simplify_m >= kCoarsest_m;
+    if (contour.labels.size() > kComfortableVertices && !is_coarsest) {
+      simplify_m = std::max(0.05, 2.0 * simplify_m);
+      continue;
+    }
+    auto layout = lay_out_strips(std::move(contour.polygon), std::move(contour.labels), corners);
+    const bool may_help = !layout && (layout.error().code == FailureCode::kNoSkeleton ||
+                                      layout.error().code == FailureCode::kTimeLimit);
+    if (!may_help || is_coarsest) return layout;
+    simplify_m = std::max(0.05, 2.0 * simplify_m);
+  }
+}
+
+}  // namespace
+
+Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block& given,
+                                                            Rng& rng) const {
+  blocks::Block block = given;
+  assume_streets(block);
+  // Algorithm 1: computeSkeletonOffset, convertToStrip, mergeOnLogicalStreets, fixDiagonalEdges.
+  auto layout = lay_out(block, options_.simplify_m, options_.corners);
+  if (!layout) return tl::unexpected<Failure>(layout.error());
+  // slice(s)
+  const double spacing_m = std::max(0.5, 0.5 * (options_.width_min_m + options_.width_max_m));
+  std::vector<Segment> cuts = slice_strips(*layout, {spacing_m, options_.irregularity}, rng);
+  cuts.insert(cuts.end(), layout->walls.begin(), layout->walls.end());
+  auto partition = BlockPartition::cut(block, cuts);
+  if (!partition) return tl::unexpected<Failure>(partition.error());
+  partition->join_slivers(kSliver_m2);
+  // processSmallLargeOrTriangularLots
+  const double triangle_max_m2 =
+      0.5 * (options_.area_min_m2 + std::min(options_.area_max_m2, kUndivided_m2));
+  join_while(*partition, [&](std::uint32_t region) {
+    const double area = partition->area_m2(region);
+    return partition->frontage_m(region) < kMinFrontage_m || area < options_.area_min_m2 ||
+           (area < triangle_max_m2 && is_triangular(partition->polygon(region)));
+  });
+  return partition->parcels();
+}
+
+SkeletonSubdivider SkeletonSubdivider::fitted(const ParcelStyle& style) const {
+  Options o = options_;
+  const Bounds area =
+      bounds_around(style.area_mean_m2, style.area_deviation_m2, o.fit_deviations, 1.0);
+  const Bounds width =
+      bounds_around(style.width_mean_m, style.width_deviation_m, o.fit_deviations, -1e6);
+  o.area_min_m2 = area.low;
+  o.area_max_m2 = area.high;
+  o.width_min_m = width.low;
+  o.width_max_m = width.high;
+  return SkeletonSubdivider(o);
+}
+
+}  // namespace plat::parcels

@@ -1,0 +1,157 @@
+#include "parcels/slices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/working_grid.h"
+
+namespace plat::parcels {
+namespace {
+
+using ArcRole = StripLayout::ArcRole;
+
+/// A spacing is kept above this share of its mean, so that no draw makes a lot of no width.
+constexpr double kMinSpacingShare = 0.25;
+
+struct Front {
+  Point point;
+  std::uint32_t edge = 0;
+};
+
+/// The point at `s` metres along psi.
+Front point_on_front(const StripLayout& layout, const Strip& strip, double s) {
+  for (const std::uint32_t e : strip.edges) {
+    const Segment edge = contour_segment(layout, e);
+    const double size = length(edge);
+    if (s < size || e == strip.edges.back())
+      return {lerp(edge.a, edge.b, std::min(s / size, 1.0)), e};
+    s -= size;
+  }
+  return {};
+}
+
+std::vector<double> sample_front(double from_m, double to_m, bool is_closed,
+                                 const SliceSpacing& spacing, Rng& rng) {
+  const double room = to_m - from_m;
+  const int lots = std::max(1, static_cast<int>(std::min(std::round(room / spacing.mean_m), 1e5)));
+  const double deviation = std::sqrt(3.0 * spacing.irregularity);
+  std::vector<double> widths;
+  double sum = 0.0;
+  for (int i = 0; i < lots; ++i) {
+    widths.push_back(
+        std::max(rng.normal(spacing.mean_m, deviation), kMinSpacingShare * spacing.mean_m));
+    sum += widths.back();
+  }
+  std::vector<double> out;
+  double at = from_m;
+  if (is_closed && lots > 1) out.push_back(at);  // a front without ends needs a first cut, too
+  for (int i = 0; i + 1 < lots; ++i) {
+    at += widths[static_cast<std::size_t>(i)] * room / sum;
+    out.push_back(at);
+  }
+  return out;
+}
+
+class Slicer {
+ public:
+  explicit Slicer(const StripLayout& layout) : layout_(layout) {
+    const auto& nodes = layout.skeleton.nodes;
+    up_.assign(nodes.size(), kNone);
+    is_end_.assign(nodes.size(), false);
+    for (std::uint32_t k = 0; k < layout.skeleton.arcs.size(); ++k) {
+      const auto& arc = layout.skeleton.arcs[k];
+      if (layout.roles[k] == ArcRole::kGuide) {
+        obstacles_.push_back({{nodes[arc.lower].position, nodes[arc.upper].position}, k});
+        if (up_[arc.lower] == kNone ||
+            nodes[layout.skeleton.arcs[up_[arc.lower]].upper].time_m < nodes[arc.upper].time_m) {
+          up_[arc.lower] = k;
+        }
+      } else if (layout.roles[k] == ArcRole::kWall) {
+        is_end_[arc.lower] = is_end_[arc.upper] = true;
+      }
+    }
+    for (const Segment& wall : layout.walls) obstacles_.push_back({wall, kNone});
+    for_each_edge(layout.contour, [&](const Segment& s) { obstacles_.push_back({s, kNone}); });
+    reach_m_ = box_of(layout.contour).width() + box_of(layout.contour).height();
+  }
+
+  void slice(const Front& front, std::vector<Segment>& cuts) const {
+    const Segment edge = contour_segment(layout_, front.edge);
+    const Point along = normalized(edge.b - edge.a);
+    const Segment ray{front.point, front.point + reach_m_ * perpendicular(along)};
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t guide = kNone;
+    for (const Obstacle& obstacle : obstacles_) {
+      const std::optional<double> t = meet(ray, obstacle.segment);
+      if (t && *t * reach_m_ > kClearance_m && *t < nearest) {
+        nearest = *t;
+        guide = obstacle.guide;
+      }
+    }
+    if (!std::isfinite(nearest)) return;
+    const Point hit = lerp(ray.a, ray.b, nearest);
+    cuts.push_back({snap(front.point), snap(hit)});
+    if (guide != kNone) follow(guide, hit, cuts);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  /// A ray has left its own edge, whose point was rounded, after this much.
+  static constexpr double kClearance_m = 2.0 * kGridStep_m;
+
+  struct Obstacle {
+    Segment segment;
+    std::uint32_t guide = kNone;  ///< the arc, if it is one to follow
+  };
+
+  /// The ray's parameter where it meets the segment.
+  static std::optional<double> meet(const Segment& ray, const Segment& s) {
+    const Point d = ray.b - ray.a;
+    const Point e = s.b - s.a;
+    const double denominator = cross(d, e);
+    if (denominator == 0.0) return std::nullopt;
+    const double t = cross(s.a - ray.a, e) / denominator;
+    const double u = cross(s.a - ray.a, d) / denominator;
+    if (t < 0.0 || u < 0.0 || u > 1.0) return std::nullopt;
+    return t;
+  }
+
+  /// Along the arc and those after it, away from the street, to the strip's boundary.
+  void follow(std::uint32_t guide, Point from, std::vector<Segment>& cuts) const {
+    for (std::size_t steps = 0; guide != kNone && steps <= layout_.skeleton.arcs.size(); ++steps) {
+      const std::uint32_t upper = layout_.skeleton.arcs[guide].upper;
+      const Point to = layout_.skeleton.nodes[upper].position;
+      cuts.push_back({snap(from), snap(to)});
+      if (is_end_[upper]) return;
+      from = to;
+      guide = up_[upper];
+    }
+  }
+
+  const StripLayout& layout_;
+  std::vector<Obstacle> obstacles_;
+  std::vector<std::uint32_t> up_;  ///< per node: the guide that leaves it farthest from the street
+  std::vector<bool> is_end_;       ///< per node: a wall meets it
+  double reach_m_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<Segment> slice_strips(const StripLayout& layout, const SliceSpacing& spacing,
+                                  Rng& rng) {
+  const Slicer slicer(layout);
+  std::vector<Segment> cuts;
+  for (const Strip& strip : layout.strips) {
+    const double from = strip.trimmed_start_m;
+    const double to = front_length_m(layout, strip) - strip.trimmed_end_m;
+    if (to <= from) continue;  // all of the strip changed hands
+    for (const double s : sample_front(from, to, strip.is_closed, spacing, rng)) {
+      slicer.slice(point_on_front(layout, strip, s), cuts);
+    }
+  }
+  return cuts;
+}
+
+}  // namespace plat::parcels

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "blocks/block.h"
+#include "parcels/straight_skeleton.h"
+
+namespace plat::parcels {
+
+/// Which strip a corner region goes to [VKW12, Sec. 4.2.2].
+enum class CornerScheme {
+  kStreetWidth,   ///< to the strip on the wider street
+  kStreetLength,  ///< to the strip with the longer front
+};
+
+/// Supporting edges psi(s): consecutive contour edges on one logical street, counter-clockwise
+/// along a ring.
+struct Strip {
+  std::vector<std::uint32_t> edges;  ///< contour edges, numbered as in StraightSkeleton
+  double trimmed_start_m = 0.0;  ///< length at the start of psi whose land a neighbour strip took
+  double trimmed_end_m = 0.0;
+  bool is_closed = false;  ///< psi is a whole ring
+};
+
+/// A block's strips and the walls between them.
+///
+/// Alpha-strips are the skeleton faces joined by logical street; corner regions are then handed
+/// over, which gives the beta-strips [VKW12, Sec. 4.2.1-2, fig. 4]. Faces of edges that front no
+/// street go to the street strip with which they share the longest boundary, so that all land has
+/// access.
+struct StripLayout {
+  Polygon contour;                        ///< the one the skeleton belongs to
+  std::vector<blocks::BlockEdge> labels;  ///< per contour edge
+  StraightSkeleton skeleton;
+  std::vector<Strip> strips;
+  std::vector<std::uint32_t> strip_of_edge;  ///< per contour edge
+  std::vector<Segment> walls;                ///< boundaries between beta-strips
+  /// Per arc: whether a slice that meets it follows it, as it lies inside one strip (fig. 5b), or
+  /// ignores it, as it lies in a region that changed hands or was absorbed.
+  enum class ArcRole : std::uint8_t { kWall, kGuide, kIgnored };
+  std::vector<ArcRole> roles;
+};
+
+/// Lays out the strips. @returns the skeleton's Failure, or kNoStreet if no edge fronts a street.
+Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockEdge> labels,
+                                     CornerScheme scheme);
+
+/// The segment of contour edge `edge`.
+Segment contour_segment(const StripLayout& layout, std::uint32_t edge);
+
+/// Length of psi, metres.
+double front_length_m(const StripLayout& layout, const Strip& strip);
+
+}  // namespace plat::parcels
