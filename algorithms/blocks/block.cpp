@@ -6,24 +6,6 @@
 
 namespace plat::blocks {
 
-std::string_view width_source_name(WidthSource source) {
-  switch (source) {
-    case WidthSource::kNone:
-      return "none";
-    case WidthSource::kAttribute:
-      return "attribute";
-    case WidthSource::kLanes:
-      return "lanes";
-    case WidthSource::kGap:
-      return "gap";
-    case WidthSource::kClass:
-      return "class";
-    case WidthSource::kAssumed:
-      return "assumed";
-  }
-  return "none";
-}
-
 const Ring& ring_at(const Block& block, std::size_t ring) {
   expects(ring <= block.contour.holes.size(), "ring in range");
   return ring == 0 ? block.contour.outer : block.contour.holes[ring - 1];

@@ -8,19 +8,12 @@
 
 #include "core/ids.h"
 #include "core/polygon.h"
+#include "streets/street_network.h"
 
 namespace plat::blocks {
 
-/// Where the width of the street at a block edge comes from.
-enum class WidthSource {
-  kNone,       ///< the edge faces no street
-  kAttribute,  ///< a width field of the street
-  kLanes,      ///< number of lanes times a lane width
-  kGap,        ///< measured: distance between the parcels or blocks on both sides
-  kClass,      ///< table by street class
-  kAssumed,    ///< none of these: a default
-};
-std::string_view width_source_name(WidthSource source);
+using streets::width_source_name;
+using streets::WidthSource;
 
 /// What one edge of a block's contour faces.
 struct BlockEdge {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/polygon.h"
+
+namespace plat::blocks::detail {
+
+/// A piece of a street on a face's boundary, the face on its left.
+struct StreetSide {
+  Segment segment;
+  double half_width_m = 0.0;
+  std::uint32_t street = 0;
+};
+
+/// The ring inset by each side's own half width, where that is a matter of meeting neighbouring
+/// offset lines: empty where a side vanishes, so that the ring must be cut instead. The ring may
+/// still cross itself. Pre: the sides form a simple counter-clockwise ring.
+Ring inset_ring(std::span<const StreetSide> ring);
+
+/// What the streets of one boundary walk take from the face: a strip per side, and a wedge where
+/// the walk turns right, so that corners of the street are filled. Same rules as inset_ring().
+std::vector<Polygon> street_strips(std::span<const StreetSide> walk);
+
+}  // namespace plat::blocks::detail
