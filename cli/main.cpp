@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   plat::cli::Action action;
   plat::cli::add_data_command(app, action);
+  plat::cli::add_blocks_command(app, action);
   try {
     app.parse(argc, argv);
     return action();
