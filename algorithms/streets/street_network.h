@@ -15,7 +15,7 @@ namespace plat::streets {
 enum class WidthSource {
   kNone,       ///< there is no street
   kAttribute,  ///< a width field of the street
-  kLanes,      ///< number of lanes times a lane width
+  kLanes,      ///< number of lanes times a lane width, and pavements
   kGap,        ///< measured: distance between the parcels or blocks on both sides
   kClass,      ///< table by street class
   kAssumed,    ///< none of these: a default

@@ -71,8 +71,10 @@ void assign_widths(StreetNetwork& network, std::span<const Polygon> land,
     };
     if (street.attributes.given_width_m)
       return give(*street.attributes.given_width_m, WidthSource::kAttribute);
-    if (street.attributes.lanes)
-      return give(*street.attributes.lanes * options.lane_width_m, WidthSource::kLanes);
+    if (street.attributes.lanes) {
+      return give(*street.attributes.lanes * options.lane_width_m + 2.0 * options.pavement_m,
+                  WidthSource::kLanes);
+    }
     if (!land.empty()) {
       if (const auto gap = median_gap_m(street.line, boundaries, options))
         return give(*gap, WidthSource::kGap);

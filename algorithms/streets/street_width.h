@@ -9,7 +9,8 @@
 namespace plat::streets {
 
 struct WidthOptions {
-  double lane_width_m = 3.25;     ///< of one lane; kerbs and pavements are not counted
+  double lane_width_m = 3.25;     ///< of one lane
+  double pavement_m = 2.5;        ///< on each side of the lanes, up to the plots
   double min_width_m = 2.0;       ///< a narrower gap is a joint between plots, not a street
   double max_width_m = 60.0;      ///< a wider gap is open land, not a street
   double sample_step_m = 8.0;     ///< between the places where a gap is measured
@@ -17,9 +18,9 @@ struct WidthOptions {
 };
 
 /// Gives every street its width and says where it comes from: the source's width field; else its
-/// lanes times a lane width; else the gap between the `land` polygons on both sides, the median
-/// over samples along the street; else the table by class (street_classes.h); else a default.
-/// `land`: parcels or blocks, may be empty; rings oriented as in Polygon.
+/// lanes times a lane width, and pavements; else the gap between the `land` polygons on both sides,
+/// the median over samples along the street; else the table by class (street_classes.h); else a
+/// default. `land`: parcels or blocks, may be empty; rings oriented as in Polygon.
 void assign_widths(StreetNetwork& network, std::span<const Polygon> land,
                    const WidthOptions& options = {}, Jobs jobs = {});
 
