@@ -5,6 +5,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from run_data import OBSERVED, layer_word, plots_word
 from style import (DISTANCES, GENERATED_BLUE, LAYER_COLOURS, LAYER_DASHES, OBSERVED_RED, add_bottom_legend, name_of,
@@ -92,9 +93,13 @@ def draw_ecdfs(figures, run, dataset):
                 linestyle="-" if is_reference else LAYER_DASHES[(i - 1) % len(LAYER_DASHES)],
                 alpha=0.75 if is_reference else 1.0)
         low, high = of_layer[OBSERVED][measure].quantile([0.002, 0.985])
-        margin = 0.05 * max(high - low, 1e-6)
+        # A measure without spread still needs a scale that can be read.
+        margin = 0.05 * max(high - low, 0.02 * abs(high), 1e-3)
         axes.set_xlim(low - margin, high + margin)
         axes.set_ylim(0, 1.02)
+        is_count = bool((of_layer[OBSERVED][measure] % 1 == 0).all())
+        axes.xaxis.set_major_locator(MaxNLocator(5, integer=is_count))
+        axes.ticklabel_format(axis="x", useOffset=False, style="plain")
         axes.set_xlabel(title_of(measure))
         axes.set_ylabel("share of parcels")
     add_bottom_legend(figure, list(handles.values()))
@@ -115,14 +120,17 @@ def draw_distances(figures, run, dataset):
         of = rows[(rows["distance"] == kind) & rows["value"].notna() & (rows["noise_mean"] > 0)]
         axes.axvspan(0.0, 1.0, color="#dddddd", zorder=0, linewidth=0)
         for i, strategy in enumerate(run.strategies):
-            own = of[of["layer"] == strategy].set_index("measure").reindex(run.measures)
+            own = of[of["layer"] == strategy]
+            if own.empty:
+                continue
             offset = (i - 0.5 * (len(run.strategies) - 1)) * 0.2
-            place = numpy.arange(len(run.measures)) + offset
-            value = own["value"] / own["noise_mean"]
-            reach = [value - own["ci_low"] / own["noise_mean"], own["ci_high"] / own["noise_mean"] - value]
+            place = own["measure"].map(run.measures.index).to_numpy() + offset
+            value = (own["value"] / own["noise_mean"]).to_numpy()
+            reach = numpy.array([value - own["ci_low"] / own["noise_mean"], own["ci_high"] / own["noise_mean"] - value])
+            reach = numpy.clip(numpy.nan_to_num(reach), 0.0, None)
             handles[strategy] = axes.errorbar(
-                value, place, xerr=numpy.clip(numpy.array(reach, dtype=float), 0, None), fmt="osD^v<"[i % 6],
-                markersize=4, linewidth=1.2, color=LAYER_COLOURS[i % len(LAYER_COLOURS)], label=strategy)
+                value, place, xerr=reach, fmt="osD^v<"[i % 6], markersize=4, linewidth=1.2,
+                color=LAYER_COLOURS[i % len(LAYER_COLOURS)], label=strategy)
         axes.set_title(DISTANCES[kind])
         axes.set_xlabel("distance / noise floor")
         axes.set_xlim(left=0)

@@ -2,7 +2,7 @@
 
 import matplotlib.pyplot as plt
 
-from maps import frame_axes, path_of
+from maps import add_scale_bar, frame_axes, path_of
 from matplotlib.collections import PathCollection
 from run_data import OBSERVED, plots_word
 from style import Colouring
@@ -10,6 +10,7 @@ from style import Colouring
 WORST = 6
 #: A KS statistic of a block with fewer parcels says little.
 LEAST_PARCELS = 4
+PANEL_WIDTH = 2.7
 
 
 def worst_blocks(run, dataset, strategy):
@@ -23,6 +24,12 @@ def worst_blocks(run, dataset, strategy):
     return rows.sort_values(["ks_area", "block_id"], ascending=[False, True], kind="stable").head(WORST)
 
 
+def _shape_of(outline):
+    """Height by width, within what a panel can show."""
+    west, south, east, north = outline.bounds
+    return min(1.6, max(0.25, (north - south) / max(east - west, 1e-6)))
+
+
 def draw_gallery(figures, run, dataset, layout, strategy):
     """The figure's name, or None where there is nothing to show."""
     rows = worst_blocks(run, dataset, strategy)
@@ -31,9 +38,11 @@ def draw_gallery(figures, run, dataset, layout, strategy):
     colouring = Colouring("aspect_ratio", layout.layers[OBSERVED])
     outlines = layout.layers["blocks"].set_index("block_id").geometry
     # Pairs side by side: observed left, strategy right, two pairs a row.
-    pair_rows = (len(rows) + 1) // 2
-    figure, grid = plt.subplots(pair_rows, 4, figsize=(11.0, 2.7 * pair_rows + 0.6), layout="constrained",
-                                squeeze=False)
+    shapes = [_shape_of(outlines[b]) for b in rows["block_id"]]
+    heights = [PANEL_WIDTH * max(shapes[i:i + 2]) + 0.6 for i in range(0, len(shapes), 2)]
+    figure, grid = plt.subplots(len(heights), 4, figsize=(4 * PANEL_WIDTH + 0.6, sum(heights) + 0.5),
+                                layout="constrained", squeeze=False, gridspec_kw={"height_ratios": heights})
+    figure.get_layout_engine().set(w_pad=0.1)
     for axes in grid.flat:
         axes.set_axis_off()
     for i, row in enumerate(rows.itertuples()):
@@ -50,6 +59,9 @@ def draw_gallery(figures, run, dataset, layout, strategy):
             axes.add_collection(PathCollection([path_of(outline)], linewidths=1.1, edgecolors="black",
                                                facecolors="none", rasterized=True))
             frame_axes(axes, outline.bounds)
+            axes.set_anchor("N")
+            if side == 0:
+                add_scale_bar(axes, outline.bounds)
             word = plots_word(dataset) if side == 0 else strategy
             detail = f"block {row.block_id}" if side == 0 else f"KS of area {row.ks_area:.2f}"
             axes.set_title(f"{word}: {len(own)}\n{detail}", fontsize=8)

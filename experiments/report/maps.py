@@ -87,13 +87,17 @@ class Layout:
         return numpy.flatnonzero(is_near)
 
 
+def _room_below(bounds):
+    """For the scale bar, also under flat panels."""
+    return 0.1 * max(bounds[3] - bounds[1], 0.7 * (bounds[2] - bounds[0]))
+
+
 def add_scale_bar(axes, bounds):
     """A bar of 1, 2 or 5 times a power of ten, about a fifth of the width."""
     wanted = 0.2 * (bounds[2] - bounds[0])
     power = 10.0 ** math.floor(math.log10(wanted))
     length = max(f * power for f in (1.0, 2.0, 5.0) if f * power <= wanted)
-    height = bounds[3] - bounds[1]
-    x, y = bounds[0], bounds[1] - 0.03 * height
+    x, y = bounds[0], bounds[1] - 0.5 * _room_below(bounds)
     axes.plot([x, x + length], [y, y], color="black", linewidth=2.5, solid_capstyle="butt", clip_on=False)
     text = f"{length / 1000:g} km" if length >= 1000 else f"{length:g} m"
     axes.text(x + 1.08 * length, y, text, va="center", ha="left", fontsize=8, clip_on=False)
@@ -102,7 +106,7 @@ def add_scale_bar(axes, bounds):
 def frame_axes(axes, bounds):
     width, height = bounds[2] - bounds[0], bounds[3] - bounds[1]
     axes.set_xlim(bounds[0] - 0.01 * width, bounds[2] + 0.01 * width)
-    axes.set_ylim(bounds[1] - 0.06 * height, bounds[3] + 0.01 * height)
+    axes.set_ylim(bounds[1] - _room_below(bounds), bounds[3] + 0.01 * height)
     axes.set_aspect("equal")
     axes.set_axis_off()
 
@@ -117,6 +121,7 @@ def draw_map(figures, run, dataset, layout, measure, bounds, name, scope):
     height = min(max(panel * shape, 2.2), 7.0)
     figure, grid = plt.subplots(rows, columns, figsize=(columns * panel + 1.0, rows * (height + 0.35) + 0.6),
                                 layout="constrained", squeeze=False)
+    figure.get_layout_engine().set(w_pad=0.12)
     is_zoom = scope != "all blocks"
     colouring = Colouring(measure, layout.layers[OBSERVED])
     for axes, layer in zip(grid.flat, layers):
@@ -144,7 +149,11 @@ def _label_colour_bar(bar, colouring):
         ticks = [int(b + 0.5) for b in colouring.norm.boundaries[:-1]]
     elif colouring.measure == "area_m2":
         low, high = colouring.norm.vmin, colouring.norm.vmax
-        ticks = [f * 10.0 ** p for p in range(-3, 8) for f in (1, 2, 5) if low <= f * 10.0 ** p <= high]
+        # As few round numbers as label the bar, more of them where its range is short.
+        for factors in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 4, 5, 7), [f / 10 for f in range(10, 100, 5)]):
+            ticks = [f * 10.0 ** p for p in range(-3, 8) for f in factors if low <= f * 10.0 ** p <= high]
+            if len(ticks) >= 3:
+                break
     else:
         return
     bar.set_ticks(ticks)

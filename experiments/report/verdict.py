@@ -75,7 +75,7 @@ def measure_sentence(run, dataset, measure):
     if pandas.notna(best["noise_mean"]):
         if best["value"] <= best["noise_high"]:
             text += (f"; within the noise floor (mean {number(best['noise_mean'])}, up to "
-                     f"{number(best['noise_high'])}): it cannot be told from one half of the place against the other")
+                     f"{number(best['noise_high'])})")
         else:
             text += f"; {number(best['value'] / best['noise_mean'], 2)} times the noise floor"
     others = []
