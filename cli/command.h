@@ -11,6 +11,11 @@ enum ExitStatus { kDone = 0, kFinishedWithFailures = 1, kBadInput = 2 };
 /// Adds one subcommand with its options, help and example; its callback stores what to do in `action`.
 using Action = std::function<ExitStatus()>;
 void add_data_command(CLI::App& app, Action& action);
+void add_list_command(CLI::App& app, Action& action);
 void add_blocks_command(CLI::App& app, Action& action);
+void add_subdivide_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
+void add_run_command(CLI::App& app, Action& action);
+void add_report_command(CLI::App& app, Action& action);
 
 }  // namespace plat::cli

@@ -14,8 +14,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", PLAT_VERSION);
   app.require_subcommand(1);
   plat::cli::Action action;
+  plat::cli::add_list_command(app, action);
   plat::cli::add_data_command(app, action);
   plat::cli::add_blocks_command(app, action);
+  plat::cli::add_run_command(app, action);
+  plat::cli::add_report_command(app, action);
   try {
     app.parse(argc, argv);
     return action();

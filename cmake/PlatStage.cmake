@@ -1,11 +1,12 @@
 # One folder of algorithms/ is one stage, one library, one line of dependencies: these lines are the
 # data-flow diagram, and tests/house/layers_test.py holds every #include against them.
 
-# plat_stage([DEPENDS stage...] [LINK target...])
+# plat_stage([DEPENDS stage...] [LINK target...] [LINK_PRIVATE target...])
 #   Declares the stage of the current folder. Every .cpp in it is compiled; every .h is public and must
-#   compile alone, but for *_internal.h, which may hold CGAL and is only included by .cpp files.
+#   compile alone, but for *_internal.h, which may hold CGAL and is only included by .cpp files. What only .cpp files
+#   include is linked privately: CGAL::CGAL would put -frounding-math on every consumer.
 function(plat_stage)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LINK;LINK_PRIVATE" ${ARGN})
   get_filename_component(stage "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
   file(GLOB sources CONFIGURE_DEPENDS "*.cpp")
   file(GLOB headers CONFIGURE_DEPENDS "*.h")
@@ -19,7 +20,7 @@ function(plat_stage)
   foreach(dependency IN LISTS ARG_DEPENDS)
     target_link_libraries(${target} PUBLIC plat::${dependency})
   endforeach()
-  target_link_libraries(${target} PUBLIC ${ARG_LINK})
+  target_link_libraries(${target} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY PLAT_STAGES ${stage})
   set_property(GLOBAL PROPERTY PLAT_STAGE_${stage}_DEPENDS "${ARG_DEPENDS}")
 endfunction()

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "geodata/dataset_catalogue.h"
+#include "harness/experiment_config.h"
+#include "parcels/block_subdivider.h"
+
+namespace plat::cli {
+namespace {
+
+using nlohmann::json;
+
+json field_json(const FieldDescription& field) {
+  json out{{"name", field.name}, {"type", field.type}, {"description", field.description}};
+  std::visit([&](const auto& value) { out["default"] = value; }, field.default_value);
+  if (field.type == "choice") {
+    out["choices"] = field.choices;
+  } else {
+    out["min"] = field.min;
+    out["max"] = field.max;
+  }
+  return out;
+}
+
+void list_strategies(bool as_json) {
+  const auto& menu = parcels::block_subdividers();
+  if (as_json) {
+    json out = json::array();
+    for (const std::string& name : menu.names()) {
+      json fields = json::array();
+      for (const FieldDescription& field : menu.at(name).fields)
+        fields.push_back(field_json(field));
+      out.push_back({{"family", "block_subdivider"},
+                     {"name", name},
+                     {"summary", menu.at(name).summary},
+                     {"options", fields}});
+    }
+    fmt::print("{}\n", out.dump(1));
+    return;
+  }
+  fmt::print("Block subdivision (plat subdivide --strategy NAME --set key=value):\n");
+  for (const std::string& name : menu.names()) {
+    fmt::print("\n  {}: {}\n", name, menu.at(name).summary);
+    for (const FieldDescription& field : menu.at(name).fields) {
+      const std::string range = field.type == "choice"
+                                    ? fmt::format("{}", fmt::join(field.choices, " | "))
+                                    : fmt::format("{:g}..{:g}", field.min, field.max);
+      fmt::print("    {:<18} {:<12} [{}]  {}\n", field.name, to_string(field.default_value), range,
+                 field.description);
+    }
+  }
+}
+
+void list_datasets(bool as_json) {
+  if (as_json) {
+    json out = json::array();
+    for (const geodata::Dataset& d : geodata::catalogue()) {
+      out.push_back({{"name", d.name},
+                     {"title", d.title},
+                     {"plots", d.observed ? plot_origin_name(d.observed->plots) : "none"},
+                     {"is_present", geodata::locate(d).has_value()}});
+    }
+    fmt::print("{}\n", out.dump(1));
+    return;
+  }
+  fmt::print("Data sets, looked for under {} (plat data list says more):\n",
+             geodata::data_dir().string());
+  for (const geodata::Dataset& d : geodata::catalogue()) {
+    fmt::print("  {:<20} {:<11} {:<8} {}\n", d.name,
+               d.observed ? plot_origin_name(d.observed->plots) : "none",
+               geodata::locate(d) ? "present" : "missing", d.title);
+  }
+}
+
+void list_experiments(bool as_json) {
+  if (as_json) {
+    json out = json::array();
+    for (const auto& e : harness::list_experiments())
+      out.push_back({{"name", e.name}, {"question", e.question}});
+    fmt::print("{}\n", out.dump(1));
+    return;
+  }
+  fmt::print("Experiments (plat run NAME --out DIR):\n");
+  for (const auto& e : harness::list_experiments()) fmt::print("  {:<24} {}\n", e.name, e.question);
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Action& action) {
+  struct Arguments {
+    std::string what;
+    bool as_json = false;
+  };
+  auto args = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "list",
+      "What there is to choose from: strategies with their options, data sets, experiments");
+  command->add_option("what", args->what, "strategies, datasets or experiments")
+      ->required()
+      ->check(CLI::IsMember({"strategies", "datasets", "experiments"}));
+  command->add_flag("--json", args->as_json,
+                    "for programs: a JSON list with names, defaults, ranges");
+  command->footer("Example:\n  plat list strategies --json\nExit status: 0 done, 2 bad input.");
+  command->callback([args, &action] {
+    action = [args]() -> ExitStatus {
+      if (args->what == "strategies") list_strategies(args->as_json);
+      if (args->what == "datasets") list_datasets(args->as_json);
+      if (args->what == "experiments") list_experiments(args->as_json);
+      return kDone;
+    };
+  });
+}
+
+}  // namespace plat::cli

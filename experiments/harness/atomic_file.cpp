@@ -1,0 +1,26 @@
+#include "harness/atomic_file.h"
+
+#include <fstream>
+#include <system_error>
+
+#include "core/failure.h"
+
+namespace plat::harness {
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.flush();
+    if (!out)
+      throw InputError(path.string() +
+                       ": cannot be written: is the folder there, writable and not full?");
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) throw InputError(path.string() + ": cannot be replaced: " + error.message());
+}
+
+}  // namespace plat::harness

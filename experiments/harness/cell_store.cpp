@@ -1,0 +1,105 @@
+#include "harness/cell_store.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/working_grid.h"
+#include "harness/atomic_file.h"
+
+namespace plat::harness {
+namespace {
+
+using nlohmann::json;
+
+json ring_json(const Ring& ring) {
+  json out = json::array();
+  for (const Point p : ring) {
+    out.push_back(to_grid(p.x));
+    out.push_back(to_grid(p.y));
+  }
+  return out;
+}
+
+Ring ring_from(const json& numbers) {
+  Ring out;
+  for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+    out.push_back(
+        {from_grid(numbers[i].get<std::int64_t>()), from_grid(numbers[i + 1].get<std::int64_t>())});
+  }
+  return out;
+}
+
+json block_json(const DividedBlock& block) {
+  json out{{"block", block.block.value}, {"seed", block.seed}};
+  for (const auto& [key, value] : block.options)
+    std::visit([&](const auto& v) { out["options"][key] = v; }, value);
+  if (!block.parcels) {
+    out["code"] = static_cast<int>(block.parcels.error().code);
+    out["message"] = block.parcels.error().message;
+    return out;
+  }
+  out["parcels"] = json::array();
+  for (const parcels::Parcel& parcel : *block.parcels) {
+    json rings = json::array({ring_json(parcel.shape.outer)});
+    for (const Ring& hole : parcel.shape.holes) rings.push_back(ring_json(hole));
+    out["parcels"].push_back(std::move(rings));
+  }
+  return out;
+}
+
+DividedBlock block_from(const json& object) {
+  DividedBlock out;
+  out.block = BlockId{object.at("block").get<std::uint32_t>()};
+  out.seed = object.at("seed").get<std::uint64_t>();
+  for (const auto& [key, value] : object.at("options").items()) {
+    if (value.is_string()) {
+      out.options.emplace(key, value.get<std::string>());
+    } else {
+      out.options.emplace(key, value.get<double>());
+    }
+  }
+  if (object.contains("code")) {
+    out.parcels = fail(static_cast<FailureCode>(object.at("code").get<int>()),
+                       object.at("message").get<std::string>());
+    return out;
+  }
+  std::vector<parcels::Parcel> parcels;
+  for (const json& rings : object.at("parcels")) {
+    parcels::Parcel parcel{ParcelId{static_cast<std::uint32_t>(parcels.size())},
+                           {ring_from(rings.at(0)), {}}};
+    for (std::size_t h = 1; h < rings.size(); ++h)
+      parcel.shape.holes.push_back(ring_from(rings[h]));
+    parcels.push_back(std::move(parcel));
+  }
+  out.parcels = std::move(parcels);
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::vector<DividedBlock>> CellStore::load(const std::string& name,
+                                                         const std::string& key) const {
+  std::ifstream in(folder_ / (name + ".json"));
+  if (!in) return std::nullopt;
+  const json cell = json::parse(in, nullptr, false);
+  if (!cell.is_object() || cell.value("key", "") != key) return std::nullopt;
+  try {
+    std::vector<DividedBlock> out;
+    for (const json& block : cell.at("blocks")) out.push_back(block_from(block));
+    return out;
+  } catch (const json::exception&) {
+    return std::nullopt;  // not a cell of ours: it is run again
+  }
+}
+
+void CellStore::save(const std::string& name, const std::string& key,
+                     const std::vector<DividedBlock>& blocks) const {
+  std::filesystem::create_directories(folder_);
+  json cell{{"key", key}, {"blocks", json::array()}};
+  for (const DividedBlock& block : blocks) cell["blocks"].push_back(block_json(block));
+  write_file(folder_ / (name + ".json"), cell.dump());
+}
+
+}  // namespace plat::harness

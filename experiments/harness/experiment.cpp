@@ -1,0 +1,287 @@
+#include "harness/experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/progress.h"
+#include "geodata/dataset_catalogue.h"
+#include "harness/atomic_file.h"
+#include "harness/build_info.h"
+#include "harness/cell_store.h"
+#include "harness/city.h"
+#include "harness/city_layers.h"
+#include "harness/comparison_tables.h"
+#include "statistics/distances.h"
+
+namespace plat::harness {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kBlocksHeader =
+    "dataset,layer,repetition,block_id,status,message,block_area_m2,parcels,observed_parcels,area_"
+    "mean_m2,"
+    "area_deviation_m2,width_mean_m,width_deviation_m,ks_area,options,seed";
+
+/// Seconds per step, for timings.json.
+class Stopwatch {
+ public:
+  void lap(const std::string& step) {
+    const auto now = std::chrono::steady_clock::now();
+    laps_.push_back(
+        {{"step", step}, {"seconds", std::chrono::duration<double>(now - last_).count()}});
+    last_ = now;
+  }
+  [[nodiscard]] const json& laps() const { return laps_; }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  json laps_ = json::array();
+};
+
+std::vector<double> areas(const std::vector<parcels::ParcelMeasures>& measures) {
+  std::vector<double> out;
+  for (const auto& m : measures) out.push_back(m.area_m2);
+  return out;
+}
+
+/// One data set on its way through the grid.
+class DatasetRun {
+ public:
+  DatasetRun(const ExperimentConfig& config, const geodata::Dataset& dataset,
+             std::filesystem::path out, Jobs jobs, Stopwatch& watch)
+      : config_(config),
+        dataset_(dataset),
+        out_(std::move(out)),
+        jobs_(jobs),
+        watch_(watch),
+        city_(load_city(dataset, jobs)) {
+    watch_.lap("read " + dataset.name);
+    for (const ObservedBlock& observed : city_.blocks) {
+      blocks_.push_back(observed.block);
+      styles_.push_back(parcels::style_of(observed.parcels));
+    }
+    observed_.label = "observed";
+    observed_.per_block = parallel_map<std::vector<parcels::ParcelMeasures>>(
+        city_.blocks.size(), jobs, [&](std::size_t i) {
+          return parcels::measure_parcels(city_.blocks[i].block, city_.blocks[i].parcels);
+        });
+    watch_.lap("measure observed " + dataset.name);
+  }
+
+  void run_strategy(const StrategyConfig& strategy, Resume resume, ExperimentOutcome& outcome) {
+    MeasuredLayer measured{strategy.label,
+                           std::vector<std::vector<parcels::ParcelMeasures>>(blocks_.size())};
+    std::vector<std::vector<DividedBlock>> repetitions;
+    for (int repetition = 0; repetition < config_.repetitions; ++repetition) {
+      repetitions.push_back(run_cell(strategy, repetition, resume, outcome));
+      for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        const DividedBlock& block = repetitions.back()[i];
+        measured.per_block[i].insert(measured.per_block[i].end(), block.measures.begin(),
+                                     block.measures.end());
+        ++outcome.blocks;
+        outcome.failures += block.parcels ? 0 : 1;
+      }
+    }
+    layers_.push_back(std::move(measured));
+    divided_.push_back(std::move(repetitions));
+    watch_.lap(fmt::format("subdivide {} {}", dataset_.name, strategy.label));
+  }
+
+  void write_rows(CsvTable& parcels_table, CsvTable& blocks_table) const {
+    const auto add_parcel = [&](const std::string& layer, int repetition, BlockId block,
+                                const std::string& id, const parcels::ParcelMeasures& m) {
+      parcels_table.add_raw_row(fmt::format("{},{},{},{},{},{}", dataset_.name, layer, repetition,
+                                            block.value, CsvTable::quoted(id), measures_csv(m)));
+    };
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      for (std::size_t k = 0; k < observed_.per_block[i].size(); ++k) {
+        add_parcel("observed", 0, blocks_[i].id, city_.blocks[i].parcel_ids[k],
+                   observed_.per_block[i][k]);
+      }
+      const parcels::ParcelStyle& style = styles_[i];
+      blocks_table.add_row(dataset_.name, "observed", 0, blocks_[i].id.value, "ok", "",
+                           area_m2(blocks_[i].contour), style.count, style.count,
+                           style.area_mean_m2, style.area_deviation_m2, style.width_mean_m,
+                           style.width_deviation_m, 0.0, "", "");
+    }
+    for (std::size_t s = 0; s < divided_.size(); ++s) {
+      const std::string& label = config_.strategies[s].label;
+      for (int repetition = 0; repetition < config_.repetitions; ++repetition) {
+        const std::vector<DividedBlock>& cell = divided_[s][static_cast<std::size_t>(repetition)];
+        for (std::size_t i = 0; i < cell.size(); ++i) {
+          const DividedBlock& block = cell[i];
+          std::optional<double> ks;
+          if (block.parcels && !observed_.per_block[i].empty())
+            ks = statistics::ks_statistic(areas(observed_.per_block[i]), areas(block.measures));
+          parcels::ParcelStyle style;
+          if (block.parcels) {
+            std::vector<Polygon> shapes;
+            for (std::size_t k = 0; k < block.parcels->size(); ++k) {
+              shapes.push_back((*block.parcels)[k].shape);
+              add_parcel(label, repetition, block.block,
+                         fmt::format("{}", (*block.parcels)[k].id.value), block.measures[k]);
+            }
+            style = parcels::style_of(shapes);
+          }
+          blocks_table.add_row(dataset_.name, label, repetition, block.block.value,
+                               block.parcels ? "ok" : failure_name(block.parcels.error().code),
+                               block.parcels ? std::string() : block.parcels.error().message,
+                               area_m2(blocks_[i].contour), style.count, styles_[i].count,
+                               style.area_mean_m2, style.area_deviation_m2, style.width_mean_m,
+                               style.width_deviation_m, ks, to_string(block.options), block.seed);
+        }
+      }
+    }
+  }
+
+  void write_comparison(ComparisonTables& tables) {
+    const std::vector<statistics::MeasureSamples> samples = measure_samples(observed_, layers_);
+    tables.add(dataset_.name, layers_,
+               statistics::compare(samples, config_.statistics, config_.seed, jobs_));
+    watch_.lap("statistics " + dataset_.name);
+  }
+
+  void write_layout(ExperimentOutcome& outcome) {
+    std::vector<geodata::Layer> layers;
+    ParcelLayer observed("observed", city_.frame);
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      for (std::size_t k = 0; k < city_.blocks[i].parcels.size(); ++k) {
+        observed.add(blocks_[i].id, city_.blocks[i].parcel_ids[k], 0, "observed",
+                     city_.blocks[i].parcels[k], observed_.per_block[i][k]);
+      }
+    }
+    layers.push_back(observed.layer());
+    FailureLayer failures(city_.frame);
+    for (const blocks::BlockFailure& failure : city_.failures) {
+      failures.add(failure.feature_id, "input", 0, failure.failure, failure.shape);
+      ++outcome.input_failures;
+    }
+    for (std::size_t s = 0; s < divided_.size(); ++s) {
+      ParcelLayer parcels(config_.strategies[s].label, city_.frame);
+      for (int repetition = 0; repetition < config_.repetitions; ++repetition) {
+        const auto& cell = divided_[s][static_cast<std::size_t>(repetition)];
+        parcels.add(cell, repetition, config_.strategies[s].label);
+        for (std::size_t i = 0; i < cell.size(); ++i) {
+          if (cell[i].parcels) continue;
+          failures.add(fmt::format("{}", cell[i].block.value), config_.strategies[s].label,
+                       repetition, cell[i].parcels.error(), blocks_[i].contour);
+        }
+      }
+      layers.push_back(parcels.layer());
+    }
+    layers.push_back(block_layer(blocks_, city_.frame));
+    layers.push_back(failures.layer());
+    geodata::write_layers(out_ / fmt::format("layout_{}.gpkg", dataset_.name), layers);
+    watch_.lap("write layout " + dataset_.name);
+  }
+
+  [[nodiscard]] json describe() const {
+    std::size_t parcels = 0;
+    for (const auto& block : observed_.per_block) parcels += block.size();
+    return {{"name", dataset_.name},
+            {"title", dataset_.title},
+            {"licence", dataset_.licence},
+            {"attribution", dataset_.attribution},
+            {"source", dataset_.source},
+            {"plots", geodata::plot_origin_name(city_.plots)},
+            {"crs", dataset_.crs},
+            {"blocks", blocks_.size()},
+            {"parcels", parcels},
+            {"input_failures", city_.failures.size()},
+            {"repairs", city_.repairs.size()}};
+  }
+
+ private:
+  std::vector<DividedBlock> run_cell(const StrategyConfig& strategy, int repetition, Resume resume,
+                                     ExperimentOutcome& outcome) {
+    const CellStore store(out_ / "cells");
+    const std::string name = fmt::format("{}__{}__{}", dataset_.name, strategy.label, repetition);
+    json key = build_info();
+    key["dataset"] = dataset_.name;
+    for (const auto& file : dataset_.files) key["files"][file.path] = file.sha256;
+    key["strategy"] = {strategy.name, to_string(strategy.options),
+                       strategy.fit == Fit::kNone ? "none" : "per_block"};
+    key["seed"] = config_.seed;
+    if (resume == Resume::kYes) {
+      if (auto cell = store.load(name, key.dump()); cell && cell->size() == blocks_.size()) {
+        parallel_for(cell->size(), jobs_,
+                     [&](std::size_t i) { measure_again((*cell)[i], blocks_[i]); });
+        ++outcome.resumed_cells;
+        return *std::move(cell);
+      }
+    }
+    Progress progress(fmt::format("{} on {}", strategy.label, dataset_.name), blocks_.size());
+    std::vector<DividedBlock> cell = subdivide_blocks(blocks_, strategy, styles_, dataset_.name,
+                                                      config_.seed, repetition, jobs_, progress);
+    store.save(name, key.dump(), cell);
+    return cell;
+  }
+
+  static void measure_again(DividedBlock& divided, const blocks::Block& block) {
+    if (!divided.parcels) return;
+    std::vector<Polygon> shapes;
+    for (const parcels::Parcel& p : *divided.parcels) shapes.push_back(p.shape);
+    divided.measures = parcels::measure_parcels(block, shapes);
+  }
+
+  const ExperimentConfig& config_;
+  const geodata::Dataset& dataset_;
+  std::filesystem::path out_;
+  Jobs jobs_;
+  Stopwatch& watch_;
+  City city_;
+  std::vector<blocks::Block> blocks_;
+  std::vector<parcels::ParcelStyle> styles_;
+  MeasuredLayer observed_;
+  std::vector<MeasuredLayer> layers_;  ///< per strategy
+  std::vector<std::vector<std::vector<DividedBlock>>>
+      divided_;  ///< per strategy, repetition, block
+};
+
+}  // namespace
+
+ExperimentOutcome run_experiment(const ExperimentConfig& config, const std::filesystem::path& out,
+                                 Jobs jobs, Resume resume) {
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error) throw InputError(fmt::format("{}: cannot be made: {}", out.string(), error.message()));
+  ExperimentOutcome outcome;
+  Stopwatch watch;
+  CsvTable parcels_table(parcels_csv_header());
+  CsvTable blocks_table(kBlocksHeader);
+  ComparisonTables tables;
+  json datasets = json::array();
+  for (const std::string& name : config.datasets) {
+    DatasetRun run(config, geodata::dataset(name), out, jobs, watch);
+    for (const StrategyConfig& strategy : config.strategies)
+      run.run_strategy(strategy, resume, outcome);
+    run.write_rows(parcels_table, blocks_table);
+    run.write_comparison(tables);
+    run.write_layout(outcome);
+    datasets.push_back(run.describe());
+  }
+  write_file(out / "parcels.csv", parcels_table.text());
+  write_file(out / "blocks.csv", blocks_table.text());
+  write_file(out / "distances.csv", tables.distances_csv());
+  write_file(out / "differences.csv", tables.differences_csv());
+  write_file(out / "histograms.csv", tables.histograms_csv());
+  write_file(out / "summary.json", tables.summary_json());
+  watch.lap("write tables");
+  write_file(out / "timings.json", watch.laps().dump(1) + "\n");
+  json manifest = build_info();
+  const json as_run = to_json(config);
+  manifest["experiment"] = config.experiment;
+  manifest["config"] = as_run;
+  manifest["seed"] = config.seed;
+  manifest["repetitions"] = config.repetitions;
+  manifest["strategies"] = as_run["strategies"];
+  manifest["datasets"] = datasets;
+  write_file(out / "manifest.json", manifest.dump(1) + "\n");
+  return outcome;
+}
+
+}  // namespace plat::harness

@@ -1,0 +1,211 @@
+#include "harness/experiment_config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "geodata/dataset_catalogue.h"
+#include "harness/build_info.h"
+#include "parcels/block_subdivider.h"
+
+namespace plat::harness {
+namespace {
+
+using nlohmann::json;
+
+/// Reads the keys of one JSON object and refuses those that nobody asked for.
+class ObjectReader {
+ public:
+  ObjectReader(const json& object, std::string where) : object_(object), where_(std::move(where)) {
+    if (!object.is_object()) throw InputError(where_ + ": must be a JSON object");
+  }
+
+  const json* find(std::string_view key) {
+    known_.push_back(key);
+    const auto it = object_.find(key);
+    return it == object_.end() ? nullptr : &*it;
+  }
+
+  std::string text(std::string_view key, const std::string& fallback) {
+    const json* value = find(key);
+    if (value == nullptr) return fallback;
+    if (!value->is_string())
+      throw InputError(fmt::format("{}: \"{}\" must be a text", where_, key));
+    return value->get<std::string>();
+  }
+
+  std::int64_t whole(std::string_view key, std::int64_t fallback, std::int64_t min,
+                     std::int64_t max) {
+    const json* value = find(key);
+    if (value == nullptr) return fallback;
+    if (!value->is_number_integer())
+      throw InputError(fmt::format("{}: \"{}\" must be a whole number", where_, key));
+    const auto number = value->get<std::int64_t>();
+    if (number < min || number > max)
+      throw InputError(fmt::format("{}: {} = {}, allowed {}..{}", where_, key, number, min, max));
+    return number;
+  }
+
+  void expect_nothing_else() const {
+    for (const auto& [key, value] : object_.items()) {
+      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+      throw InputError(
+          fmt::format("{}: unknown key \"{}\"{}", where_, key, did_you_mean(key, known_)));
+    }
+  }
+
+  [[nodiscard]] const std::string& where() const { return where_; }
+
+ private:
+  const json& object_;
+  std::string where_;
+  std::vector<std::string_view> known_;
+};
+
+OptionMap read_options(const json& object, const std::string& where) {
+  OptionMap out;
+  if (!object.is_object()) throw InputError(where + ": \"options\" must be a JSON object");
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_number()) {
+      out.emplace(key, value.get<double>());
+    } else if (value.is_string()) {
+      out.emplace(key, value.get<std::string>());
+    } else {
+      throw InputError(fmt::format("{}: option \"{}\" must be a number or a text", where, key));
+    }
+  }
+  return out;
+}
+
+StrategyConfig read_strategy(const json& object, const std::string& where) {
+  ObjectReader reader(object, where);
+  StrategyConfig out;
+  out.name = reader.text("name", "");
+  out.label = reader.text("label", out.name);
+  if (const json* options = reader.find("options")) out.options = read_options(*options, where);
+  const std::string fit = reader.text("fit", "per_block");
+  reader.expect_nothing_else();
+  if (fit != "per_block" && fit != "none")
+    throw InputError(fmt::format("{}: fit = \"{}\", allowed: per_block, none", where, fit));
+  out.fit = fit == "none" ? Fit::kNone : Fit::kPerBlock;
+  const auto is_plain = [](char c) {
+    return (std::isalnum(static_cast<unsigned char>(c)) != 0) || c == '_' || c == '-';
+  };
+  if (!std::all_of(out.label.begin(), out.label.end(), is_plain) || out.label.empty()) {
+    throw InputError(
+        fmt::format("{}: label \"{}\" must be letters, digits, _ and - only", where, out.label));
+  }
+  for (const char* taken : {"observed", "blocks", "failures"}) {
+    if (out.label == taken)
+      throw InputError(
+          fmt::format("{}: label \"{}\" is taken by a layer of that name", where, taken));
+  }
+  static_cast<void>(
+      parcels::block_subdividers().make(out.name, out.options));  // a typo never runs an experiment
+  return out;
+}
+
+}  // namespace
+
+ExperimentConfig parse_config(const json& object, const std::string& source) {
+  ObjectReader reader(object, source);
+  ExperimentConfig out;
+  out.experiment = reader.text("experiment", "");
+  static_cast<void>(reader.text("question", ""));
+  if (out.experiment.empty())
+    throw InputError(source + ": \"experiment\" must name the experiment");
+  const json* datasets = reader.find("datasets");
+  if (datasets == nullptr || !datasets->is_array() || datasets->empty()) {
+    throw InputError(source + ": \"datasets\" must be a list of data set names (plat data list)");
+  }
+  for (const json& name : *datasets) {
+    if (!name.is_string()) throw InputError(source + ": \"datasets\" must hold names");
+    out.datasets.push_back(geodata::dataset(name.get<std::string>()).name);
+  }
+  const json* strategies = reader.find("strategies");
+  if (strategies == nullptr || !strategies->is_array() || strategies->empty()) {
+    throw InputError(source + ": \"strategies\" must be a list (plat list strategies)");
+  }
+  for (std::size_t i = 0; i < strategies->size(); ++i) {
+    out.strategies.push_back(
+        read_strategy((*strategies)[i], fmt::format("{}: strategies[{}]", source, i)));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (out.strategies[j].label == out.strategies[i].label) {
+        throw InputError(
+            fmt::format("{}: two strategies are labelled \"{}\": give one another \"label\"",
+                        source, out.strategies[i].label));
+      }
+    }
+  }
+  out.repetitions = static_cast<int>(reader.whole("repetitions", 1, 1, 10000));
+  out.seed = static_cast<std::uint64_t>(reader.whole("seed", 1, 0, std::int64_t{1} << 62));
+  if (const json* statistics = reader.find("statistics")) {
+    out.statistics = from_option_map<statistics::ComparisonOptions>(
+        source + ": statistics", read_options(*statistics, source));
+  }
+  reader.expect_nothing_else();
+  return out;
+}
+
+ExperimentConfig read_config(const std::string& file_or_name) {
+  std::filesystem::path path = file_or_name;
+  if (!std::filesystem::exists(path)) {
+    path = experiments_folder() / file_or_name / "config.json";
+    if (!std::filesystem::exists(path)) {
+      std::vector<std::string> names;
+      for (const auto& e : list_experiments()) names.push_back(e.name);
+      const std::vector<std::string_view> views(names.begin(), names.end());
+      throw InputError(
+          fmt::format("{}: no such config file or experiment{} (plat list experiments)",
+                      file_or_name, did_you_mean(file_or_name, views)));
+    }
+  }
+  if (std::filesystem::is_directory(path)) path /= "config.json";
+  std::ifstream in(path);
+  if (!in) throw InputError(path.string() + ": cannot be read");
+  try {
+    return parse_config(json::parse(in), path.string());
+  } catch (const json::parse_error& error) {
+    throw InputError(fmt::format("{}: not valid JSON at byte {}", path.string(), error.byte));
+  }
+}
+
+json to_json(const ExperimentConfig& config) {
+  json out;
+  out["experiment"] = config.experiment;
+  out["datasets"] = config.datasets;
+  out["repetitions"] = config.repetitions;
+  out["seed"] = config.seed;
+  const auto options_json = [](const OptionMap& map) {
+    json object = json::object();
+    for (const auto& [key, value] : map) std::visit([&](const auto& v) { object[key] = v; }, value);
+    return object;
+  };
+  out["statistics"] = options_json(to_option_map(config.statistics));
+  for (const StrategyConfig& s : config.strategies) {
+    out["strategies"].push_back({{"label", s.label},
+                                 {"name", s.name},
+                                 {"options", options_json(s.options)},
+                                 {"fit", s.fit == Fit::kNone ? "none" : "per_block"}});
+  }
+  return out;
+}
+
+std::vector<ExperimentSummary> list_experiments() {
+  std::vector<ExperimentSummary> out;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(experiments_folder(), ignored)) {
+    std::ifstream in(entry.path() / "config.json");
+    if (!in) continue;
+    const json object = json::parse(in, nullptr, false);
+    if (!object.is_object()) continue;
+    out.push_back({entry.path().filename().string(), object.value("question", "")});
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return out;
+}
+
+}  // namespace plat::harness

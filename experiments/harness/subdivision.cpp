@@ -1,0 +1,62 @@
+#include "harness/subdivision.h"
+
+#include "parcels/coverage.h"
+
+namespace plat::harness {
+namespace {
+
+/// The strategy as it divides one block: fitted, then with what the config asks for.
+parcels::AnyBlockSubdivider strategy_for(const StrategyConfig& strategy,
+                                         const parcels::ParcelStyle* style) {
+  const auto& menu = parcels::block_subdividers();
+  parcels::AnyBlockSubdivider base = menu.make(strategy.name, strategy.options);
+  if (style == nullptr || strategy.fit == Fit::kNone) return base;
+  OptionMap options = base.fitted(*style).options();
+  for (const auto& [key, value] : strategy.options) options.insert_or_assign(key, value);
+  return menu.make(strategy.name, options);
+}
+
+}  // namespace
+
+std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks,
+                                           const StrategyConfig& strategy,
+                                           std::span<const parcels::ParcelStyle> styles,
+                                           std::string_view dataset, std::uint64_t seed,
+                                           int repetition, Jobs jobs, Progress& progress) {
+  expects(styles.empty() || styles.size() == blocks.size(), "one style per block");
+  const std::uint64_t dataset_key = seed_key(dataset);
+  return parallel_map<DividedBlock>(blocks.size(), jobs, [&](std::size_t i) {
+    const blocks::Block& block = blocks[i];
+    DividedBlock out;
+    out.block = block.id;
+    out.seed =
+        derive_seed(seed, {dataset_key, block.id.value, static_cast<std::uint64_t>(repetition)});
+    const parcels::ParcelStyle* style = styles.empty() ? nullptr : &styles[i];
+    if (style != nullptr && style->count == 0 && strategy.fit == Fit::kPerBlock) {
+      out.options = parcels::block_subdividers().make(strategy.name, strategy.options).options();
+      out.parcels = fail(FailureCode::kNoObservation,
+                         "no observed parcels in this block to fit the options to");
+      progress.step();
+      return out;
+    }
+    const parcels::AnyBlockSubdivider subdivider = strategy_for(strategy, style);
+    out.options = subdivider.options();
+    Rng rng(out.seed);
+    out.parcels = subdivider.subdivide(block, rng);
+    if (out.parcels) {
+      if (auto defect = parcels::find_coverage_defect(block.contour, *out.parcels,
+                                                      parcels::kContourTolerance_m)) {
+        out.parcels = tl::unexpected<Failure>(*std::move(defect));
+      }
+    }
+    if (out.parcels) {
+      std::vector<Polygon> shapes;
+      for (const parcels::Parcel& p : *out.parcels) shapes.push_back(p.shape);
+      out.measures = parcels::measure_parcels(block, shapes);
+    }
+    progress.step();
+    return out;
+  });
+}
+
+}  // namespace plat::harness

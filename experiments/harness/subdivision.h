@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "blocks/block.h"
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "harness/experiment_config.h"
+#include "parcels/block_subdivider.h"
+#include "parcels/parcel_measures.h"
+
+namespace plat::harness {
+
+/// A block divided by one strategy.
+struct DividedBlock {
+  BlockId block;
+  OptionMap options;       ///< as they ran, fitted ones included
+  std::uint64_t seed = 0;  ///< of the block's stream
+  Expected<std::vector<parcels::Parcel>> parcels = fail(FailureCode::kNoObservation, "");
+  std::vector<parcels::ParcelMeasures> measures;  ///< one per parcel
+};
+
+/// Divides every block. Each meets its own stream, from (seed, data set, block, repetition) but not
+/// from the strategy, so that strategies meet the same randomness. What a strategy returns is
+/// checked to be a coverage; where it is not, the block is a failure kNotCovered. The result does
+/// not depend on the thread count.
+/// @param styles  one per block to fit the options to, or empty; a style of no parcels is a failure
+/// kNoObservation
+std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks,
+                                           const StrategyConfig& strategy,
+                                           std::span<const parcels::ParcelStyle> styles,
+                                           std::string_view dataset, std::uint64_t seed,
+                                           int repetition, Jobs jobs, Progress& progress);
+
+}  // namespace plat::harness
