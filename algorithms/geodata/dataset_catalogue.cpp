@@ -44,7 +44,8 @@ std::optional<LayerMapping> mapping_if_any(const json& object, const char* key) 
   if (!object.contains(key)) return std::nullopt;
   const json& mapping = object.at(key);
   return LayerMapping{mapping.at("layer"), mapping.value("where", ""),
-                      mapping.value("fields", std::map<std::string, std::string>{})};
+                      mapping.value("fields", std::map<std::string, std::string>{}),
+                      mapping.value("settings", std::map<std::string, std::string>{})};
 }
 
 Fetch fetch_from(const json& object) {
@@ -65,10 +66,6 @@ Fetch fetch_from(const json& object) {
   for (const json& step : object.at("steps")) {
     recipe.steps.push_back({step.at("url"), text_if_any(step, "source_layer"), step.at("layer"),
                             kind_from(step.at("kind"))});
-  }
-  if (object.contains("blocks_from")) {
-    recipe.blocks_from = object.at("blocks_from").at("layer").get<std::string>();
-    recipe.close_m = object.at("blocks_from").at("close_m");
   }
   return recipe;
 }

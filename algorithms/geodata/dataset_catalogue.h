@@ -34,8 +34,11 @@ struct LayerMapping {
   std::string layer;  ///< "path:layer", path relative to the data folder
   std::string where;  ///< SQL condition, empty = all features
   /// What Plat calls a field -> what the file calls it. Parcels: id. Streets: name, class, width,
-  /// lanes, layer, structure, bridge, tunnel, major. Footprints: height (metres).
+  /// lanes, layer, structure, bridge, tunnel. Footprints: height (metres).
   std::map<std::string, std::string> fields;
+  /// What goes for the whole layer. Streets: class_prefix (put before a class that is a number),
+  /// default_class (where the class is missing).
+  std::map<std::string, std::string> settings;
 };
 
 /// Where the plots of an observed city come from.
@@ -51,6 +54,7 @@ struct ObservedMapping {
   std::optional<LayerMapping> parcels;
   std::optional<LayerMapping> streets;
   std::optional<LayerMapping> footprints;
+  /// Not in a file that `fetch` made: blocks are then derived from the parcels.
   std::optional<LayerMapping> blocks;
 };
 
@@ -76,9 +80,6 @@ struct FetchRecipe {
   std::string file;
   int epsg = 0;
   std::vector<Step> steps;
-  std::optional<std::string>
-      blocks_from;       ///< layer whose union, closed, becomes the layer `blocks`
-  double close_m = 0.0;  ///< gaps up to twice this wide are closed
 };
 /// By hand only.
 struct FetchManually {};

@@ -11,6 +11,7 @@
 #include "core/options.h"
 #include "geodata/gdal_internal.h"
 #include "geodata/layer_io.h"
+#include "geodata/ogr_geometry_internal.h"
 
 namespace plat::geodata {
 namespace {
@@ -20,53 +21,6 @@ using detail::SpatialReference;
 
 constexpr double kOriginStep_m = 1000.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-Polyline points_of(const OGRSimpleCurve& curve) {
-  Polyline out;
-  out.reserve(static_cast<std::size_t>(curve.getNumPoints()));
-  for (int i = 0; i < curve.getNumPoints(); ++i) out.push_back({curve.getX(i), curve.getY(i)});
-  return out;
-}
-
-Ring ring_from(const OGRSimpleCurve& curve) {
-  Ring ring = points_of(curve);
-  if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  return ring;
-}
-
-/// Takes a linear geometry apart.
-void add_parts(const OGRGeometry& geometry, Feature& feature) {
-  if (geometry.IsEmpty()) return;
-  switch (wkbFlatten(geometry.getGeometryType())) {
-    case wkbPoint: {
-      const OGRPoint& point = *geometry.toPoint();
-      feature.points.push_back({point.getX(), point.getY()});
-      return;
-    }
-    case wkbLineString:
-      feature.lines.push_back(points_of(*geometry.toLineString()));
-      return;
-    case wkbPolygon:
-    case wkbTriangle: {
-      const OGRPolygon& region = *geometry.toPolygon();
-      Polygon polygon{ring_from(*region.getExteriorRing()), {}};
-      for (int i = 0; i < region.getNumInteriorRings(); ++i) {
-        if (!region.getInteriorRing(i)->IsEmpty())
-          polygon.holes.push_back(ring_from(*region.getInteriorRing(i)));
-      }
-      feature.polygons.push_back(std::move(polygon));
-      return;
-    }
-    case wkbPolyhedralSurface:
-    case wkbTIN:
-      for (const OGRPolygon* patch : *geometry.toPolyhedralSurface()) add_parts(*patch, feature);
-      return;
-    default:
-      if (OGR_GT_IsSubClassOf(geometry.getGeometryType(), wkbGeometryCollection)) {
-        for (const OGRGeometry* part : *geometry.toGeometryCollection()) add_parts(*part, feature);
-      }
-  }
-}
 
 template <class Visit>
 void for_each_chain(Feature& feature, Visit visit) {
@@ -251,14 +205,7 @@ Feature feature_of(OGRFeature& row, const Columns& columns) {
   feature.id = std::to_string(row.GetFID());
   for (std::size_t i = 0; i < columns.sources.size(); ++i)
     feature.attributes.push_back(attribute_of(row, columns.sources[i], columns.schema[i].type));
-  if (const OGRGeometry* geometry = row.GetGeometryRef()) {
-    if (geometry->hasCurveGeometry(FALSE) != FALSE) {
-      const OGRGeometryUniquePtr linear(geometry->getLinearGeometry());
-      add_parts(*linear, feature);
-    } else {
-      add_parts(*geometry, feature);
-    }
-  }
+  if (const OGRGeometry* geometry = row.GetGeometryRef()) detail::add_parts(*geometry, feature);
   return feature;
 }
 

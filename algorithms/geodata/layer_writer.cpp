@@ -9,6 +9,8 @@
 #include "core/failure.h"
 #include "geodata/gdal_internal.h"
 #include "geodata/layer_io.h"
+#include "geodata/ogr_geometry_internal.h"
+#include "geodata/partial_file_internal.h"
 
 namespace plat::geodata {
 namespace {
@@ -21,37 +23,6 @@ namespace fs = std::filesystem;
 /// GeoPackage notes when each layer changed: a fixed time, so that the same layers give the same
 /// bytes.
 constexpr const char* kWrittenAt = "2000-01-01T00:00:00.000Z";
-
-/// A file beside the target that becomes the target, or vanishes.
-class PartialFile {
- public:
-  explicit PartialFile(const fs::path& target) : target_(target), path_(target) {
-    // The ending stays: GDAL goes by it.
-    path_.replace_filename("." + target.stem().string() + ".partial" + target.extension().string());
-    remove();
-  }
-  ~PartialFile() { remove(); }
-  PartialFile(const PartialFile&) = delete;
-  PartialFile& operator=(const PartialFile&) = delete;
-
-  [[nodiscard]] std::string path() const { return path_.string(); }
-  void commit() {
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error)
-      throw InputError(fmt::format("{}: cannot be written: {}", target_.string(), error.message()));
-  }
-
- private:
-  void remove() const {
-    std::error_code ignored;
-    for (const char* suffix : {"", "-journal", "-wal", "-shm"})
-      fs::remove(path_.string() + suffix, ignored);
-  }
-
-  fs::path target_;
-  fs::path path_;
-};
 
 class Writer {
  public:
@@ -177,23 +148,6 @@ class Writer {
     }
   }
 
-  static void add_points(std::span<const Point> points, Point origin, OGRSimpleCurve& out) {
-    for (const Point p : points) out.addPoint(p.x + origin.x, p.y + origin.y);
-  }
-
-  static OGRGeometryUniquePtr polygon_of(const Polygon& polygon, Point origin) {
-    auto out = std::make_unique<OGRPolygon>();
-    const auto add_ring = [&](const Ring& ring) {
-      auto closed = std::make_unique<OGRLinearRing>();
-      add_points(ring, origin, *closed);
-      if (!ring.empty()) add_points(std::span(ring).first(1), origin, *closed);
-      out->addRingDirectly(closed.release());
-    };
-    add_ring(polygon.outer);
-    for (const Ring& hole : polygon.holes) add_ring(hole);
-    return OGRGeometryUniquePtr(out.release());
-  }
-
   static bool is_finite(const Feature& feature) {
     const auto finite = [](std::span<const Point> points) {
       return std::all_of(points.begin(), points.end(),
@@ -211,11 +165,10 @@ class Writer {
     if (!is_finite(feature)) return nullptr;
     const Point origin = layer.frame.origin;
     std::vector<OGRGeometryUniquePtr> parts;
-    for (const Polygon& polygon : feature.polygons) parts.push_back(polygon_of(polygon, origin));
+    for (const Polygon& polygon : feature.polygons)
+      parts.push_back(detail::to_ogr(polygon, origin));
     for (const Polyline& line : feature.lines) {
-      auto part = std::make_unique<OGRLineString>();
-      add_points(line, origin, *part);
-      parts.emplace_back(part.release());
+      parts.push_back(detail::to_ogr(std::span<const Point>(line), origin));
     }
     for (const Point p : feature.points)
       parts.emplace_back(new OGRPoint(p.x + origin.x, p.y + origin.y));
@@ -247,7 +200,7 @@ void write_layers(const std::string& path, std::span<const Layer> layers) {
         is_geojson ? "a .geojson holds one; write a .gpkg" : "a file holds at least one"));
   }
   const ScopedConfig fixed_time("OGR_CURRENT_DATE", kWrittenAt);
-  PartialFile partial{fs::path(path)};
+  detail::PartialFile partial{fs::path(path)};
   Writer writer(path, is_geojson ? "GeoJSON" : "GPKG", partial.path());
   for (const Layer& layer : layers) writer.add(layer);
   writer.close();
