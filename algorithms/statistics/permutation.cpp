@@ -1,34 +1,20 @@
 #include "statistics/permutation.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/failure.h"
 #include "core/rng.h"
-#include "statistics/pooled_sample.h"
+#include "statistics/swap_pool_internal.h"
 
 namespace plat::statistics {
 namespace {
 
+using detail::SwapPool;
+
 /// Differences that are equal but for rounding count as ties, in favour of the null hypothesis.
-constexpr double kTieTolerance = 1e-12;
-
-/// Lanes 2k and 2k + 1 of a pass hold A and B against observed, after the labels were swapped.
-constexpr std::size_t kPerPass = PooledSample::kLanes / 2;
-
-void set_labels(const PooledSample& pool, std::vector<PooledSample::CellWeight>& weights,
-                std::size_t group, std::size_t slot, bool is_swapped) {
-  const std::int32_t kept = is_swapped ? 0 : 1;
-  const std::size_t lane_a = 2 * slot;
-  const std::size_t lane_b = lane_a + 1;
-  weights[pool.cell(0, group)].x[lane_a] = 1;
-  weights[pool.cell(0, group)].x[lane_b] = 1;
-  weights[pool.cell(1, group)].y[lane_a] = kept;
-  weights[pool.cell(1, group)].y[lane_b] = 1 - kept;
-  weights[pool.cell(2, group)].y[lane_a] = 1 - kept;
-  weights[pool.cell(2, group)].y[lane_b] = kept;
-}
+constexpr double kTieTolerance = 1e-9;
 
 Distances dominance(const GroupedSample& observed, const GroupedSample& a, const GroupedSample& b,
                     const Bins& bins) {
@@ -53,35 +39,34 @@ PairedTest paired_permutation_test(const GroupedSample& observed, const GroupedS
                                    const GroupedSample& b, const Bins& bins, int permutations,
                                    std::uint64_t seed, Jobs jobs) {
   expects(permutations > 0, "at least one permutation");
-  const std::array<const GroupedSample*, 3> samples{&observed, &a, &b};
-  const PooledSample pool(samples, bins);
+  const SwapPool pool(observed, a, b, bins);
 
-  // Slot 0 of the first pass is the identity: what was observed goes through the same arithmetic.
+  // Slot 0 swaps nothing: what was observed goes through the same arithmetic.
   const auto slots = static_cast<std::size_t>(permutations) + 1;
-  const std::size_t passes = (slots + kPerPass - 1) / kPerPass;
-  std::vector<Distances> differences(passes * kPerPass);
+  constexpr std::size_t kLanes = SwapPool::kLanes;
+  const std::size_t passes = (slots + kLanes - 1) / kLanes;
+  std::vector<Distances> drawn(passes * kLanes);
   parallel_for(passes, jobs, [&](std::size_t pass) {
-    std::vector<PooledSample::CellWeight> weights = pool.no_weights();
-    for (std::size_t k = 0; k < kPerPass; ++k) {
-      const std::size_t slot = pass * kPerPass + k;
+    SwapPool::Swaps swaps(pool.groups());
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      const std::size_t slot = pass * kLanes + l;
       Rng rng(derive_seed(seed, {slot}));
-      for (std::size_t g = 0; g < pool.groups(); ++g)
-        set_labels(pool, weights, g, k, slot > 0 && (rng() >> 63) != 0);
+      for (auto& group : swaps) group[l] = slot > 0 && (rng() >> 63) != 0 ? 1 : 0;
     }
-    const auto lanes = pool.distances(weights);
-    for (std::size_t k = 0; k < kPerPass; ++k) {
-      for (const DistanceKind kind : kDistanceKinds)
-        differences[pass * kPerPass + k][kind] = lanes[2 * k][kind] - lanes[2 * k + 1][kind];
-    }
+    const auto lanes = pool.differences(swaps);
+    std::copy(lanes.begin(), lanes.end(),
+              drawn.begin() + static_cast<std::ptrdiff_t>(pass * kLanes));
   });
 
   PairedTest test;
-  test.difference = differences.front();
+  const Distances to_a = distances(observed.values, a.values, bins);
+  const Distances to_b = distances(observed.values, b.values, bins);
   for (const DistanceKind kind : kDistanceKinds) {
-    const double extreme = std::abs(differences.front()[kind]) * (1.0 - kTieTolerance);
+    test.difference[kind] = to_a[kind] - to_b[kind];
+    const double extreme = std::abs(drawn.front()[kind]) * (1.0 - kTieTolerance);
     std::size_t count = 0;
     for (std::size_t slot = 1; slot < slots; ++slot) {
-      if (std::abs(differences[slot][kind]) >= extreme) ++count;
+      if (std::abs(drawn[slot][kind]) >= extreme) ++count;
     }
     test.p_value[kind] = static_cast<double>(count + 1) / static_cast<double>(slots);
   }

@@ -8,6 +8,7 @@
 #include "statistics/noise_floor.h"
 #include "statistics/permutation.h"
 #include "statistics/pooled_sample.h"
+#include "statistics/swap_pool_internal.h"
 #include "support/property.h"
 
 namespace plat::statistics {
@@ -133,6 +134,53 @@ TEST(Bootstrap, CoversTheTrueDistance) {
     RecordProperty(std::string(distance_name(kind)), std::to_string(share));
     EXPECT_GT(share, 0.82) << distance_name(kind);
   }
+}
+
+TEST(SwapPool, AgreesWithThePlainDistancesAfterSwaps) {
+  Rng rng = testing::property_rng("SwapPool.AgreesWithThePlainDistances");
+  for (int i = 0; i < testing::iterations(60); ++i) {
+    // Fewer values than steps: read off at every distinct value.
+    const std::size_t blocks = 1 + rng.index(30);
+    const GroupedSample observed = clustered(rng, blocks, 5.0, 2.0, 1.0);
+    GroupedSample a = clustered(rng, blocks, 5.5, 2.0, 1.5);
+    const GroupedSample b = clustered(rng, blocks, 4.5, 2.0, 1.5);
+    if (i % 2 == 0) {
+      for (double& v : a.values) v = std::round(v);
+    }
+    const Bins bins = shared_bins(observed.values, ValueKind::kContinuous);
+    const detail::SwapPool pool(observed, a, b, bins);
+    detail::SwapPool::Swaps swaps(blocks);
+    for (auto& group : swaps) {
+      for (auto& lane : group) lane = static_cast<std::int32_t>(rng.index(2));
+    }
+    const auto fast = pool.differences(swaps);
+    for (std::size_t l = 0; l < fast.size(); ++l) {
+      GroupedSample of_a;
+      GroupedSample of_b;
+      for (std::size_t g = 0; g < blocks; ++g) {
+        of_a.add_group(swaps[g][l] != 0 ? b.group(g) : a.group(g));
+        of_b.add_group(swaps[g][l] != 0 ? a.group(g) : b.group(g));
+      }
+      const Distances to_a = distances(observed.values, of_a.values, bins);
+      const Distances to_b = distances(observed.values, of_b.values, bins);
+      for (const DistanceKind kind : kDistanceKinds)
+        EXPECT_NEAR(fast[l][kind], to_a[kind] - to_b[kind], 1e-12) << distance_name(kind);
+    }
+  }
+}
+
+TEST(SwapPool, IsCloseToThePlainDistancesOnLargeSamples) {
+  Rng rng = testing::property_rng("SwapPool.IsCloseOnLargeSamples");
+  const GroupedSample observed = clustered(rng, 2000, 5.0, 2.0, 1.0);
+  const GroupedSample a = clustered(rng, 2000, 5.5, 2.0, 1.5);
+  const GroupedSample b = clustered(rng, 2000, 4.8, 2.0, 1.5);
+  const Bins bins = shared_bins(observed.values, ValueKind::kContinuous);
+  const auto fast = detail::SwapPool(observed, a, b, bins)
+                        .differences(detail::SwapPool::Swaps(observed.groups()))[0];
+  const Distances to_a = distances(observed.values, a.values, bins);
+  const Distances to_b = distances(observed.values, b.values, bins);
+  for (const DistanceKind kind : kDistanceKinds)
+    EXPECT_NEAR(fast[kind], to_a[kind] - to_b[kind], 0.005) << distance_name(kind);
 }
 
 TEST(PermutationTest, FindsThatTheNearerStrategyIsNearer) {
