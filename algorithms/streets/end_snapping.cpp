@@ -154,7 +154,7 @@ void snap_loose_ends(std::span<const RawStreet> raw, double snap_m, std::vector<
     moves.push_back({end, target->place});
     repairs.push_back(
         {raw[ways[end.way].raw].source_id, RepairKind::kSnappedEnd, target->place,
-         fmt::format("end moved by {:.2f} m onto feature {}", distance(end.place, target->place),
+         fmt::format("end moved by {:.3f} m onto feature {}", distance(end.place, target->place),
                      raw[ways[target->way].raw].source_id)});
   }
   for (const Move& move : moves) {

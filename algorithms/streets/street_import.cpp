@@ -115,13 +115,19 @@ class StreetReader {
         level_(layer, fields.level, {"layer"}),
         structure_(layer, fields.structure, {"structure"}),
         bridge_(layer, {}, {"bridge"}),
-        tunnel_(layer, {}, {"tunnel"}) {}
+        tunnel_(layer, {}, {"tunnel"}),
+        is_osm_(fields.street_class.empty() && find_field(layer, "highway").has_value()) {}
 
   void read(const Feature& feature, RawStreets& out) const {
     const Point place = feature.lines.front().empty() ? Point{} : feature.lines.front().front();
     StreetAttributes attributes;
     attributes.name = name_.read(feature);
     attributes.street_class = class_.read(feature);
+    if (attributes.street_class.empty() && is_osm_) {
+      out.repairs.push_back(
+          {feature.id, RepairKind::kNotUsed, place, "no highway value: not a street"});
+      return;
+    }
     attributes.street_class = attributes.street_class.empty()
                                   ? options_.default_class
                                   : options_.class_prefix + attributes.street_class;
@@ -162,6 +168,7 @@ class StreetReader {
   FieldReader structure_;
   FieldReader bridge_;
   FieldReader tunnel_;
+  bool is_osm_;
 };
 
 }  // namespace

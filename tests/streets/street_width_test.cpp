@@ -127,6 +127,13 @@ TEST(ImportStreets, MisspeltFieldIsRefusedWithTheNearestName) {
   EXPECT_THROW(import_streets(layer_with({"name"}, {"x"}), fields), InputError);
 }
 
+TEST(ImportStreets, OpenStreetMapLineWithoutHighwayIsLeftOutByARow) {
+  const RawStreets raw = import_streets(layer_with({"highway", "waterway"}, {"", "river"}));
+  EXPECT_TRUE(raw.streets.empty());
+  ASSERT_EQ(raw.repairs.size(), 1U);
+  EXPECT_EQ(raw.repairs.front().kind, RepairKind::kNotUsed);
+}
+
 TEST(ImportStreets, PolygonsAreRefused) {
   geodata::Layer layer = layer_with({}, {});
   layer.kind = geodata::GeometryKind::kPolygon;
