@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kFewestBins = 8.0;
 constexpr double kMostBins = 80.0;
+/// Closed bins reach no further from the quartiles than this many interquartile ranges.
+constexpr double kFence = 5.0;
 
 /// The smallest of 1, 2, 5 times a power of ten that is not below `width`.
 double round_up_width(double width) {
@@ -60,6 +62,11 @@ Bins shared_bins(std::span<const double> observed, ValueKind kind) {
   if (sorted.empty()) return {{0.0, 1.0}};
   double low = sorted_quantile(sorted, 0.01);
   double high = sorted_quantile(sorted, 0.99);
+  const double iqr = sorted_quantile(sorted, 0.75) - sorted_quantile(sorted, 0.25);
+  if (iqr > 0.0) {
+    low = std::max(low, sorted_quantile(sorted, 0.25) - kFence * iqr);
+    high = std::min(high, sorted_quantile(sorted, 0.75) + kFence * iqr);
+  }
   if (!(high > low)) {
     low = sorted.front();
     high = sorted.back();
@@ -68,7 +75,6 @@ Bins shared_bins(std::span<const double> observed, ValueKind kind) {
   if (!(high > low)) return {{std::floor(low) + shift, std::floor(low) + 1.0 + shift}};
 
   const double range = high - low;
-  const double iqr = sorted_quantile(sorted, 0.75) - sorted_quantile(sorted, 0.25);
   double width = 2.0 * iqr / std::cbrt(static_cast<double>(sorted.size()));
   if (!(width > 0.0)) width = range / kFewestBins;
   width = std::clamp(width, range / kMostBins, range / kFewestBins);

@@ -25,11 +25,11 @@ enum class ValueKind {
 /// Bins chosen from the observed sample alone, so that every strategy is measured on the same ones.
 ///
 /// Width: Freedman and Diaconis (1981), 2 IQR n^(-1/3), rounded to 1, 2 or 5 times a power of ten
-/// (to a whole number for counts). Range: the 1st to the 99th percentile, widened to whole bins;
-/// what lies outside falls into the two open bins, since one park of 10 ha must not set the scale
-/// of a histogram of lots. Between 8 and 80 closed bins wherever the values differ; a sample of
-/// equal values, or none, gets one bin around it. Deterministic; the order of values does not
-/// matter.
+/// (to a whole number for counts). Range: the 1st to the 99th percentile, no further than 5
+/// IQR from the quartiles, widened to whole bins; what lies outside falls into the two open bins,
+/// since one park of 10 ha must not set the scale of a histogram of lots. Between 8 and 80 closed
+/// bins wherever the values differ; a sample of equal values, or none, gets one bin around it.
+/// Deterministic; the order of values does not matter.
 Bins shared_bins(std::span<const double> observed, ValueKind kind);
 
 /// How many values fall into each bin: not normalised. Sum = values.size().

@@ -35,6 +35,13 @@ def bars_of(rows, repetitions):
     return left, numpy.where(is_open, width, high - low), rows["count"].to_numpy() / repetitions, is_open
 
 
+def scale_of(histograms, measure):
+    """The ends of the closed bins: histograms and distribution functions show the same range."""
+    ends = histograms.loc[histograms["measure"] == measure, ["bin_low", "bin_high"]].to_numpy(dtype=float)
+    ends = ends[numpy.isfinite(ends)]
+    return ends.min(), ends.max()
+
+
 def draw_superposed(axes, histograms, measure, strategy, repetitions):
     """Observed red, procedural blue, transparent."""
     of = histograms[histograms["measure"] == measure]
@@ -78,6 +85,7 @@ def _curve(values):
 def draw_ecdfs(figures, run, dataset):
     parcels = run.of("parcels", dataset)
     layers = [OBSERVED, *run.strategies]
+    histograms = run.of("histograms", dataset)
     of_layer = {layer: parcels[parcels["layer"] == layer] for layer in layers}
     figure, panels = _grid(len(run.measures))
     handles = {}
@@ -92,7 +100,7 @@ def draw_ecdfs(figures, run, dataset):
                 color=OBSERVED_RED if is_reference else LAYER_COLOURS[(i - 1) % len(LAYER_COLOURS)],
                 linestyle="-" if is_reference else LAYER_DASHES[(i - 1) % len(LAYER_DASHES)],
                 alpha=0.75 if is_reference else 1.0)
-        low, high = of_layer[OBSERVED][measure].quantile([0.002, 0.985])
+        low, high = scale_of(histograms, measure)
         # A measure without spread still needs a scale that can be read.
         margin = 0.05 * max(high - low, 0.02 * abs(high), 1e-3)
         axes.set_xlim(low - margin, high + margin)

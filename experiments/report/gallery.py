@@ -14,14 +14,14 @@ PANEL_WIDTH = 2.7
 
 
 def worst_blocks(run, dataset, strategy):
-    """Rows of blocks.csv of the first repetition, largest ks_area first, ties by block id."""
+    """Rows of blocks.csv of the first repetition, largest ks_area first, ties by number of parcels, then block id."""
     rows = run.of("blocks", dataset)
     rows = rows[(rows["layer"] == strategy) & (rows["status"] == "ok") & rows["ks_area"].notna()]
     rows = rows[rows["repetition"] == rows["repetition"].min()]
-    if "observed_parcels" in rows.columns:
-        enough = rows[rows["observed_parcels"] >= LEAST_PARCELS]
-        rows = enough if len(enough) else rows
-    return rows.sort_values(["ks_area", "block_id"], ascending=[False, True], kind="stable").head(WORST)
+    enough = rows[rows["observed_parcels"] >= LEAST_PARCELS]
+    rows = enough if len(enough) else rows
+    return rows.sort_values(["ks_area", "observed_parcels", "block_id"], ascending=[False, False, True],
+                            kind="stable").head(WORST)
 
 
 def _shape_of(outline):

@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PathCollection
+from matplotlib.patches import Rectangle
 from matplotlib.path import Path
 
 from run_data import OBSERVED, layer_word, plots_word
@@ -73,12 +74,18 @@ class Layout:
         collection = PathCollection(paths, linewidths=edge_width, edgecolors="#333333", rasterized=True)
         collection.set_facecolor(colouring.cmap(colouring.norm(
             self.layers[layer][colouring.measure].to_numpy()[inside].astype(float))))
-        axes.add_collection(collection)
+        self._add(axes, collection, bounds)
 
     def draw_blocks(self, axes, bounds, width):
         paths = [self.paths["blocks"][i] for i in self._near("blocks", bounds)]
-        axes.add_collection(PathCollection(paths, linewidths=width, edgecolors="#000000", facecolors="none",
-                                           rasterized=True))
+        self._add(axes, PathCollection(paths, linewidths=width, edgecolors="#000000", facecolors="none",
+                                       rasterized=True), bounds)
+
+    def _add(self, axes, collection, bounds):
+        """Cut at the bounds, so that the strip of the scale bar stays free."""
+        axes.add_collection(collection)
+        if not numpy.array_equal(bounds, self.bounds):
+            collection.set_clip_path(Rectangle(bounds[:2], *(bounds[2:] - bounds[:2]), transform=axes.transData))
 
     def _near(self, layer, bounds):
         own = self.layers[layer].geometry.bounds.to_numpy()

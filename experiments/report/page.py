@@ -27,11 +27,11 @@ CAPTIONS = {
     "map_area_m2": "Logarithmic scale from the 2nd to the 98th percentile of the reference.",
     "map_neighbours": "Parcels of the same block with a common boundary of at least 0.5 m.",
     "histograms": "Superposed, not normalised, same bins, as in VKW12 fig. 1d and e; counts are per repetition. "
-                  "Hatched: everything beyond the 1st and 99th percentile of the reference.",
-    "ecdf": "Cut at the 98.5th percentile of the reference.",
+                  "Hatched: everything beyond the scale, which the reference sets.",
+    "ecdf": "The same scale as the histograms.",
     "distances": "Each distance divided by its noise floor, the mean distance between random halves of the blocks of "
                  "the reference. In the grey band a strategy is as near as one half of the place to the other.",
-    "worst": "Largest KS statistic of area within the block, blocks with at least 4 parcels. Colours: aspect ratio.",
+    "worst": "Largest KS statistic of area within the block; among equals, most parcels. Colours: aspect ratio.",
 }
 
 

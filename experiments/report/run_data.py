@@ -16,7 +16,8 @@ class RunError(Exception):
 
 TABLES = {
     "parcels": ["dataset", "layer", "repetition", "block_id", "parcel_id"],
-    "blocks": ["dataset", "layer", "repetition", "block_id", "status", "message", "ks_area"],
+    "blocks": ["dataset", "layer", "repetition", "block_id", "status", "message", "observed_parcels",
+               "ks_area"],
     "distances": ["dataset", "layer", "measure", "distance", "value", "ci_low", "ci_high", "noise_mean", "noise_low",
                   "noise_high", "n_observed", "n_generated", "n_blocks"],
     "differences": ["dataset", "measure", "distance", "layer_a", "layer_b", "difference", "ci_low", "ci_high",
