@@ -72,7 +72,8 @@ Expected<StripLayout> lay_out(const blocks::Block& block, double simplify_m, Cor
       simplify_m = std::max(0.05, 2.0 * simplify_m);
       continue;
     }
-    auto layout = lay_out_strips(std::move(contour.polygon), std::move(contour.labels), corners);
+    auto layout =
+        lay_out_strips(std::move(contour.polygon), std::move(contour.labels), simplify_m, corners);
     const bool may_help = !layout && (layout.error().code == FailureCode::kNoSkeleton ||
                                       layout.error().code == FailureCode::kTimeLimit);
     if (!may_help || is_coarsest) return layout;

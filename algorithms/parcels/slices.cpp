@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <queue>
+#include <utility>
 
 #include "core/working_grid.h"
 
@@ -57,43 +59,39 @@ std::vector<double> sample_front(double from_m, double to_m, bool is_closed,
 class Slicer {
  public:
   explicit Slicer(const StripLayout& layout) : layout_(layout) {
+    find_ways_to_walls();
     const auto& nodes = layout.skeleton.nodes;
-    up_.assign(nodes.size(), kNone);
-    is_end_.assign(nodes.size(), false);
     for (std::uint32_t k = 0; k < layout.skeleton.arcs.size(); ++k) {
       const auto& arc = layout.skeleton.arcs[k];
-      if (layout.roles[k] == ArcRole::kGuide) {
-        obstacles_.push_back({{nodes[arc.lower].position, nodes[arc.upper].position}, k});
-        if (up_[arc.lower] == kNone ||
-            nodes[layout.skeleton.arcs[up_[arc.lower]].upper].time_m < nodes[arc.upper].time_m) {
-          up_[arc.lower] = k;
-        }
-      } else if (layout.roles[k] == ArcRole::kWall) {
-        is_end_[arc.lower] = is_end_[arc.upper] = true;
+      // An arc from which no wall is reached cannot guide: the slice goes straight on instead.
+      if (layout.roles[k] == ArcRole::kGuide && reaches_wall(arc.upper)) {
+        obstacles_.push_back({{nodes[arc.lower].position, nodes[arc.upper].position}, k, false});
       }
     }
-    for (const Segment& wall : layout.walls) obstacles_.push_back({wall, kNone});
-    for_each_edge(layout.contour, [&](const Segment& s) { obstacles_.push_back({s, kNone}); });
+    for (const Segment& wall : layout.walls) obstacles_.push_back({wall, kNone, false});
+    for_each_edge(layout.contour,
+                  [&](const Segment& s) { obstacles_.push_back({s, kNone, true}); });
     reach_m_ = box_of(layout.contour).width() + box_of(layout.contour).height();
   }
 
   void slice(const Front& front, std::vector<Segment>& cuts) const {
     const Segment edge = contour_segment(layout_, front.edge);
-    const Point along = normalized(edge.b - edge.a);
-    const Segment ray{front.point, front.point + reach_m_ * perpendicular(along)};
+    const Point inward = perpendicular(normalized(edge.b - edge.a));
+    const Segment ray{front.point, front.point + reach_m_ * inward};
     double nearest = std::numeric_limits<double>::infinity();
-    std::uint32_t guide = kNone;
+    Obstacle met;
     for (const Obstacle& obstacle : obstacles_) {
       const std::optional<double> t = meet(ray, obstacle.segment);
       if (t && *t * reach_m_ > kClearance_m && *t < nearest) {
         nearest = *t;
-        guide = obstacle.guide;
+        met = obstacle;
       }
     }
     if (!std::isfinite(nearest)) return;
     const Point hit = lerp(ray.a, ray.b, nearest);
-    cuts.push_back({snap(front.point), snap(hit)});
-    if (guide != kNone) follow(guide, hit, cuts);
+    const double beyond_m = met.is_contour ? layout_.slack_m : 0.0;
+    cuts.push_back({snap(front.point - layout_.slack_m * inward), snap(hit + beyond_m * inward)});
+    if (met.guide != kNone) follow(met.guide, hit, cuts);
   }
 
  private:
@@ -104,6 +102,7 @@ class Slicer {
   struct Obstacle {
     Segment segment;
     std::uint32_t guide = kNone;  ///< the arc, if it is one to follow
+    bool is_contour = false;
   };
 
   /// The ray's parameter where it meets the segment.
@@ -118,22 +117,63 @@ class Slicer {
     return t;
   }
 
+  [[nodiscard]] bool reaches_wall(std::uint32_t node) const {
+    return layout_.is_wall_node[node] || way_[node] != kNone;
+  }
+
+  /// Per node, the arc that starts the shortest way to a wall along guides that do not descend to
+  /// the street (Dijkstra from the walls; equal heights are common, where the streets of a strip
+  /// run parallel).
+  void find_ways_to_walls() {
+    const auto& nodes = layout_.skeleton.nodes;
+    way_.assign(nodes.size(), kNone);
+    std::vector<std::vector<std::uint32_t>> arcs_at(nodes.size());
+    for (std::uint32_t k = 0; k < layout_.skeleton.arcs.size(); ++k) {
+      if (layout_.roles[k] != ArcRole::kGuide) continue;
+      arcs_at[layout_.skeleton.arcs[k].lower].push_back(k);
+      arcs_at[layout_.skeleton.arcs[k].upper].push_back(k);
+    }
+    using Entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    std::vector<double> best(nodes.size(), std::numeric_limits<double>::infinity());
+    for (std::uint32_t v = 0; v < nodes.size(); ++v) {
+      if (!layout_.is_wall_node[v]) continue;
+      best[v] = 0.0;
+      open.emplace(0.0, v);
+    }
+    while (!open.empty()) {
+      const auto [d, v] = open.top();
+      open.pop();
+      if (d > best[v]) continue;
+      for (const std::uint32_t k : arcs_at[v]) {
+        const auto& arc = layout_.skeleton.arcs[k];
+        const std::uint32_t below = arc.lower == v ? arc.upper : arc.lower;
+        if (nodes[below].time_m > nodes[v].time_m + kGridStep_m) continue;
+        const double through = d + distance(nodes[v].position, nodes[below].position);
+        if (through >= best[below]) continue;
+        best[below] = through;
+        way_[below] = k;
+        open.emplace(through, below);
+      }
+    }
+  }
+
   /// Along the arc and those after it, away from the street, to the strip's boundary.
   void follow(std::uint32_t guide, Point from, std::vector<Segment>& cuts) const {
-    for (std::size_t steps = 0; guide != kNone && steps <= layout_.skeleton.arcs.size(); ++steps) {
-      const std::uint32_t upper = layout_.skeleton.arcs[guide].upper;
-      const Point to = layout_.skeleton.nodes[upper].position;
+    std::uint32_t node = layout_.skeleton.arcs[guide].upper;
+    for (;;) {
+      const Point to = layout_.skeleton.nodes[node].position;
       cuts.push_back({snap(from), snap(to)});
-      if (is_end_[upper]) return;
+      if (layout_.is_wall_node[node]) return;
+      const auto& arc = layout_.skeleton.arcs[way_[node]];  // ways get shorter: this ends
+      node = arc.lower == node ? arc.upper : arc.lower;
       from = to;
-      guide = up_[upper];
     }
   }
 
   const StripLayout& layout_;
   std::vector<Obstacle> obstacles_;
-  std::vector<std::uint32_t> up_;  ///< per node: the guide that leaves it farthest from the street
-  std::vector<bool> is_end_;       ///< per node: a wall meets it
+  std::vector<std::uint32_t> way_;  ///< per node: the guide on which to go on to a wall
   double reach_m_ = 0.0;
 };
 

@@ -6,11 +6,17 @@
 #include <map>
 #include <utility>
 
+#include "core/working_grid.h"
+
 namespace plat::parcels {
 namespace {
 
 using ArcRole = StripLayout::ArcRole;
 constexpr std::uint32_t kNoStrip = 0xffffffffU;
+/// A corner region runs at most this many times its depth along the street that loses it. Where
+/// streets meet at less than 53 degrees, the common boundary is the row's centreline, not a
+/// diagonal, and stays (ADR 0006).
+constexpr double kMaxCornerRatio = 2.0;
 
 /// Consecutive range of contour edges that form one ring.
 struct RingRange {
@@ -138,12 +144,15 @@ class CornerRegions {
     const Point far = layout_.skeleton.nodes[far_node_].position;
     // (ii) the nearest point on psi of the strip that loses the region.
     const std::optional<Foot> foot = nearest_front_point(loser, far, to_previous);
-    if (!foot) return;
+    if (!foot || foot->from_corner_m > kMaxCornerRatio * layout_.skeleton.nodes[far_node_].time_m)
+      return;
     double& trimmed =
         to_previous ? layout_.strips[loser].trimmed_start_m : layout_.strips[loser].trimmed_end_m;
     trimmed = std::max(trimmed, foot->from_corner_m);
     for (const std::uint32_t a : path) layout_.roles[a] = ArcRole::kIgnored;
-    layout_.walls.push_back({far, foot->point});
+    const Point beyond = foot->point + layout_.slack_m * normalized(foot->point - far);
+    layout_.walls.push_back({far, snap(beyond)});
+    layout_.is_wall_node[far_node_] = true;
     ignore_guides_inside(region(path, vertex, *foot, far));
   }
 
@@ -200,7 +209,7 @@ class CornerRegions {
       Segment s = contour_segment(layout_, e);
       if (!from_start) std::swap(s.a, s.b);
       const double t = nearest_parameter(s, far);
-      const Point at = lerp(s.a, s.b, t);
+      const Point at = snap(lerp(s.a, s.b, t));
       candidates.push_back({distance(at, far), Foot{at, passed + t * length(s), front}});
       passed += length(s);
       front.push_back(s.b);
@@ -287,7 +296,7 @@ double front_length_m(const StripLayout& layout, const Strip& strip) {
 }
 
 Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockEdge> labels,
-                                     CornerScheme scheme) {
+                                     double slack_m, CornerScheme scheme) {
   if (std::none_of(labels.begin(), labels.end(), [](const auto& l) { return l.is_street(); })) {
     return fail(FailureCode::kNoStreet, "no edge of the block faces a street");
   }
@@ -296,7 +305,12 @@ Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockE
   StripLayout layout;
   layout.contour = std::move(contour);
   layout.labels = std::move(labels);
+  layout.slack_m = slack_m;
   layout.skeleton = *std::move(skeleton);
+  layout.is_wall_node.assign(layout.skeleton.nodes.size(), false);
+  // From here on everything is on the working grid: a slice that ends on a wall must end on the
+  // wall as it is noded.
+  for (auto& node : layout.skeleton.nodes) node.position = snap(node.position);
   make_alpha_strips(layout);
   absorb_faces_without_street(layout);
   assign_roles(layout);
@@ -304,6 +318,7 @@ Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockE
   for (std::uint32_t k = 0; k < layout.roles.size(); ++k) {
     if (layout.roles[k] != ArcRole::kWall) continue;
     const auto& arc = layout.skeleton.arcs[k];
+    layout.is_wall_node[arc.lower] = layout.is_wall_node[arc.upper] = true;
     layout.walls.push_back(
         {layout.skeleton.nodes[arc.lower].position, layout.skeleton.nodes[arc.upper].position});
   }

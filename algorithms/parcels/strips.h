@@ -31,21 +31,25 @@ struct Strip {
 /// street go to the street strip with which they share the longest boundary, so that all land has
 /// access.
 struct StripLayout {
-  Polygon contour;                        ///< the one the skeleton belongs to
+  Polygon contour;  ///< the one the skeleton belongs to
+  double slack_m =
+      0.0;  ///< how far the block's own contour may be off: cuts are prolonged by this to reach it
   std::vector<blocks::BlockEdge> labels;  ///< per contour edge
-  StraightSkeleton skeleton;
+  StraightSkeleton skeleton;              ///< its nodes on the working grid
   std::vector<Strip> strips;
   std::vector<std::uint32_t> strip_of_edge;  ///< per contour edge
   std::vector<Segment> walls;                ///< boundaries between beta-strips
+  std::vector<bool> is_wall_node;            ///< per skeleton node: a wall meets it
   /// Per arc: whether a slice that meets it follows it, as it lies inside one strip (fig. 5b), or
   /// ignores it, as it lies in a region that changed hands or was absorbed.
   enum class ArcRole : std::uint8_t { kWall, kGuide, kIgnored };
   std::vector<ArcRole> roles;
 };
 
-/// Lays out the strips. @returns the skeleton's Failure, or kNoStreet if no edge fronts a street.
+/// Lays out the strips of a contour that is at most `slack_m` off the block's own.
+/// @returns the skeleton's Failure, or kNoStreet if no edge fronts a street.
 Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockEdge> labels,
-                                     CornerScheme scheme);
+                                     double slack_m, CornerScheme scheme);
 
 /// The segment of contour edge `edge`.
 Segment contour_segment(const StripLayout& layout, std::uint32_t edge);
