@@ -232,7 +232,7 @@ class NetworkBuilder {
 
   void chain_pieces() {
     std::vector<bool> is_used(pieces_.size(), false);
-    std::vector<std::pair<std::uint32_t, Street>> found;  // with the lowest way of each
+    std::vector<Chain> found;
     for (std::uint32_t start = 0; start < pieces_.size(); ++start) {
       if (is_used[start] || pieces_[start].is_removed) continue;
       // Back to where the street begins; all the way round where it is a closed loop.
@@ -244,18 +244,25 @@ class NetworkBuilder {
         node = far_end(piece, node);
       }
       found.push_back(walk_street(piece, node, is_used));
+      found.back().order = static_cast<std::uint32_t>(found.size());
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto& [way, street] : found) {
+    std::sort(found.begin(), found.end(), [](const Chain& a, const Chain& b) {
+      return std::pair(a.lowest_way, a.order) < std::pair(b.lowest_way, b.order);
+    });
+    for (auto& [way, order, street] : found) {
       street.id = {static_cast<std::uint32_t>(out_.network.streets.size())};
       out_.network.streets.push_back(std::move(street));
     }
     drop_unused_nodes();
   }
 
-  std::pair<std::uint32_t, Street> walk_street(std::uint32_t piece, std::uint32_t node,
-                                               std::vector<bool>& is_used) {
+  struct Chain {
+    std::uint32_t lowest_way = 0;
+    std::uint32_t order = 0;
+    Street street;
+  };
+
+  Chain walk_street(std::uint32_t piece, std::uint32_t node, std::vector<bool>& is_used) {
     Street street;
     street.from = node;
     street.line.push_back(place(node));
@@ -284,7 +291,7 @@ class NetworkBuilder {
     }
     street.attributes = attributes(lowest_way);
     street.source_id = source_id(lowest_way);
-    return {lowest_way, std::move(street)};
+    return {lowest_way, 0, std::move(street)};
   }
 
   /// Only nodes where a street ends are nodes of the network; the others are points of a line.
