@@ -84,6 +84,7 @@ ExitStatus fetch(const std::string& name, const std::string& to) {
 
 ExitStatus check(const std::vector<std::string>& names) {
   std::vector<const Dataset*> sets;
+  sets.reserve(geodata::catalogue().size());
   for (const std::string& name : names) sets.push_back(&geodata::dataset(name));
   if (names.empty()) {
     for (const Dataset& set : geodata::catalogue()) {

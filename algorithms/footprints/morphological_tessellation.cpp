@@ -307,6 +307,7 @@ Expected<Tessellation> MorphologicalTessellation::tessellate(
   std::vector<parcels::Parcel> plots = partition->parcels();
   expects(plots.size() == regions.size(), "one parcel per region");
   std::vector<std::pair<std::uint32_t, std::size_t>> order;
+  order.reserve(regions.size());
   for (std::size_t i = 0; i < regions.size(); ++i) order.emplace_back(label[regions[i]], i);
   std::sort(order.begin(), order.end());
   std::vector<bool> has_plot(footprints.size());

@@ -50,6 +50,7 @@ class TemporaryFolder {
 /// Runs a program from PATH, its output into `log`. Returns its exit status, 127 if there is none.
 int run_program(std::vector<std::string> arguments, const fs::path& log) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
@@ -145,7 +146,7 @@ std::vector<std::string> tiles_in(const std::string& archive_folder) {
   std::vector<std::string> out;
   for (int i = 0; i < names.size(); ++i) {
     const std::string name = names[i];
-    if (name.ends_with(".mvt")) out.push_back(archive_folder + "/" + name);
+    if (name.ends_with(".mvt")) out.push_back(fmt::format("{}/{}", archive_folder, name));
   }
   std::sort(out.begin(), out.end());
   return out;
@@ -193,6 +194,7 @@ class Fetcher {
     const std::string uncut = (work.path() / "merged.gpkg").string();
     write_layers(uncut, merged);
     std::vector<Layer> layers;
+    layers.reserve(method.layers.size());
     for (const auto& [name, kind] : method.layers)
       layers.push_back(reproject(uncut, name, kind, frame_of(method.epsg), name));
     prepare(folder_ / method.file);

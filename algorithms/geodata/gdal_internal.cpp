@@ -41,7 +41,7 @@ ScopedConfig::~ScopedConfig() {
 }
 
 GDALDatasetUniquePtr open_vector(const std::string& file) {
-  QuietGdal quiet;
+  const QuietGdal quiet;
   std::string path = file;
   if (!file.starts_with("/vsi")) {
     if (!std::filesystem::exists(file))

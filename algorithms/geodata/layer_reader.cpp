@@ -22,21 +22,22 @@ using detail::SpatialReference;
 constexpr double kOriginStep_m = 1000.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-template <class Visit>
-void for_each_chain(Feature& feature, Visit visit) {
-  for (Polygon& polygon : feature.polygons) {
+/// Calls visit(points) for every ring, line and set of points; `FeatureT` may be const.
+template <class FeatureT, class Visit>
+void for_each_chain(FeatureT& feature, Visit visit) {
+  for (auto& polygon : feature.polygons) {
     visit(polygon.outer);
-    for (Ring& hole : polygon.holes) visit(hole);
+    for (auto& hole : polygon.holes) visit(hole);
   }
-  for (Polyline& line : feature.lines) visit(line);
+  for (auto& line : feature.lines) visit(line);
   if (!feature.points.empty()) visit(feature.points);
 }
 
 bool is_finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-Box finite_box(std::vector<Feature>& features) {
+Box finite_box(const std::vector<Feature>& features) {
   Box box;
-  for (Feature& feature : features) {
+  for (const Feature& feature : features) {
     for_each_chain(feature, [&](const std::vector<Point>& chain) {
       for (const Point p : chain) {
         if (is_finite(p)) box.add(p);
@@ -106,6 +107,7 @@ SpatialReference utm_reference(const OGRSpatialReference& source, Point center) 
 /// "did you mean" or the whole list: what a person needs to name the layer.
 std::string layer_names(GDALDataset& data) {
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(data.GetLayerCount()));
   for (OGRLayer* layer : data.GetLayers()) names.emplace_back(layer->GetName());
   return fmt::format("{}", fmt::join(names, ", "));
 }
@@ -159,6 +161,7 @@ Columns choose_columns(const OGRFeatureDefn& defn, const std::vector<std::string
       out.sources.push_back({tags, name});
     } else {
       std::vector<std::string_view> names;
+      names.reserve(static_cast<std::size_t>(defn.GetFieldCount()));
       for (int k = 0; k < defn.GetFieldCount(); ++k)
         names.emplace_back(defn.GetFieldDefn(k)->GetNameRef());
       throw InputError(fmt::format("{}: no field \"{}\"{}; there are: {}", where_from, name,

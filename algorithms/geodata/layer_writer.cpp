@@ -126,6 +126,7 @@ class Writer {
     }
     if (ids.size() == layer.features.size()) return ids;
     ids.clear();
+    ids.reserve(layer.features.size());
     for (std::size_t i = 0; i < layer.features.size(); ++i)
       ids.push_back(static_cast<GIntBig>(i) + 1);
     return ids;
