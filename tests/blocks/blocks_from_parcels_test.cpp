@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "blocks/edge_labels.h"
 #include "core/validity.h"
@@ -159,6 +160,26 @@ TEST(LabelEdges, CourtyardFacesNoStreet) {
       std::vector<ObservedParcel>{{"ring", ring}, {"other", box(70, 0, 90, 60)}});
   label_edges(found.blocks, {});
   for (const BlockEdge& edge : found.blocks[0].edges.at(1)) EXPECT_FALSE(edge.is_street());
+}
+
+TEST(LabelEdges, MirroredCityHasTheSameLabels) {
+  std::vector<ObservedParcel> parcels = two_blocks();
+  parcels.push_back({"e", box(0, 41, 94, 70)});
+  std::vector<ObservedParcel> twins = parcels;
+  for (ObservedParcel& twin : twins) {
+    for (Point& p : twin.shape.outer) p = {512.0 - p.x, p.y + 64.0};
+  }
+  const auto widths = [](std::span<const ObservedParcel> of) {
+    BlocksFromParcels found = blocks_from_parcels(of);
+    label_edges(found.blocks, {});
+    std::multiset<double> out;
+    for (const Block& block : found.blocks) {
+      for (const BlockEdge& edge : block.edges[0]) out.insert(edge.street_width_m);
+    }
+    return out;
+  };
+  EXPECT_EQ(widths(parcels), widths(twins));
+  EXPECT_EQ(widths(parcels).count(11.0), 3U);
 }
 
 }  // namespace

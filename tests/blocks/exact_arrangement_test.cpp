@@ -9,6 +9,10 @@
 
 #include "core/planar_faces.h"
 #include "core/working_grid.h"
+#include "geodata/layer_io.h"
+#include "streets/network_cleaning.h"
+#include "streets/street_import.h"
+#include "support/data_folder.h"
 #include "support/property.h"
 
 namespace plat {
@@ -131,6 +135,48 @@ TEST(ExactArrangement, GridOfStreetsHasTheFacesThatOneCounts) {
   const PlanarGraph graph = node_segments(segments);
   EXPECT_EQ(own_faces(graph).bounded_faces, 144U);
   expect_same(own_faces(graph), exact_faces(edges_of(graph), true));
+}
+
+/// The streets of a file that pass within `radius_m` of the local origin, cleaned.
+std::vector<Segment> cropped_streets(const geodata::LayerSource& source, Point center,
+                                     double radius_m) {
+  const std::vector<streets::RawStreet> all =
+      streets::import_streets(geodata::read_layer(source)).streets;
+  std::vector<streets::RawStreet> near;
+  for (const streets::RawStreet& street : all) {
+    const bool is_near = std::any_of(street.line.begin(), street.line.end(),
+                                     [&](Point p) { return distance(p, center) < radius_m; });
+    if (is_near && street.attributes.level == 0) near.push_back(street);
+  }
+  std::vector<Segment> out;
+  for (const streets::Street& street : streets::build_network(near).network.streets) {
+    for (std::size_t i = 1; i < street.line.size(); ++i)
+      out.push_back({street.line[i - 1], street.line[i]});
+  }
+  return out;
+}
+
+void expect_exact_faces(const std::vector<Segment>& segments, std::size_t least_faces) {
+  const PlanarGraph graph = node_segments(segments);
+  EXPECT_EQ(graph.edges.size(), segments.size());  // build_network() left nothing to node
+  const FaceSummary own = own_faces(graph);
+  expect_same(own, exact_faces(edges_of(graph), true));
+  EXPECT_GT(own.bounded_faces, least_faces);
+}
+
+TEST(ExactArrangement, MontevideoCroppedHasItsFaces) {
+  PLAT_REAL_DATA_OR_SKIP(file, "montevideo_uy/montevideo_osm.gpkg");
+  expect_exact_faces(cropped_streets({file, "roads"}, {0, 0}, 2500.0), 200);
+}
+
+TEST(ExactArrangement, SanFranciscoHasItsFaces) {
+  PLAT_REAL_DATA_OR_SKIP(file, "san_francisco_us/san_francisco_us.gpkg");
+  expect_exact_faces(cropped_streets({file, "road"}, {0, 0}, 5000.0), 200);
+}
+
+TEST(ExactArrangement, CambridgeHasItsFaces) {
+  PLAT_REAL_DATA_OR_SKIP(file, "cambridge_ma/cambridge_ma.gpkg");
+  expect_exact_faces(cropped_streets({file, "streets"}, {0, 0}, 2000.0), 100);
 }
 
 }  // namespace
