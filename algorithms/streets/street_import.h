@@ -12,8 +12,8 @@ namespace plat::streets {
 /// Which field of a layer says what; empty where none does. Where a field is empty the
 /// OpenStreetMap names are looked for ("name", "highway" or "class", "width", "lanes", "layer",
 /// "bridge", "tunnel", "structure"), as fields or in an `other_tags` field
-/// ("\"lanes\"=>\"2\",..."). A layer with a `highway` field holds other lines too (rivers, walls): a
-/// feature without a value there is left out, by a row.
+/// ("\"lanes\"=>\"2\",..."). A layer with a `highway` field holds other lines too (rivers, walls):
+/// a feature without a value there is left out, by a row.
 struct StreetFields {
   std::string name;
   std::string street_class;
