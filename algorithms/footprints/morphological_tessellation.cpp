@@ -323,25 +323,4 @@ Expected<Tessellation> MorphologicalTessellation::tessellate(
   return out;
 }
 
-BlockFootprints assign_to_blocks(std::span<const blocks::Block> blocks,
-                                 std::span<const Polygon> footprints) {
-  BlockFootprints out;
-  out.of_block.resize(blocks.size());
-  std::vector<Box> boxes;
-  for (const blocks::Block& block : blocks) boxes.push_back(box_of(block.contour));
-  for (std::uint32_t i = 0; i < footprints.size(); ++i) {
-    const Polygon shape = snap_polygon(footprints[i]);
-    bool is_found = false;
-    if (shape.outer.size() > 2 && area_m2(shape) > 0.0) {
-      const Point p = interior_point(shape);
-      for (std::size_t b = 0; b < blocks.size() && !is_found; ++b) {
-        is_found = boxes[b].contains(p) && locate(blocks[b].contour, p) == Side::kInside;
-        if (is_found) out.of_block[b].push_back(i);
-      }
-    }
-    if (!is_found) out.outside.push_back(i);
-  }
-  return out;
-}
-
 }  // namespace plat::footprints

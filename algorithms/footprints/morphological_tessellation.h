@@ -69,12 +69,4 @@ class MorphologicalTessellation {
   Options options_;
 };
 
-/// Which footprints stand in which block: those with an interior point in it.
-struct BlockFootprints {
-  std::vector<std::vector<std::uint32_t>> of_block;  ///< per block: indices, ascending
-  std::vector<std::uint32_t> outside;                ///< in no block, or without area
-};
-BlockFootprints assign_to_blocks(std::span<const blocks::Block> blocks,
-                                 std::span<const Polygon> footprints);
-
 }  // namespace plat::footprints

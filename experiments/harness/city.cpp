@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "blocks/block_assignment.h"
 #include "blocks/block_extraction.h"
 #include "blocks/edge_labels.h"
 #include "footprints/morphological_tessellation.h"
@@ -118,7 +119,7 @@ City load_tessellated(const Dataset& dataset, Jobs jobs, const std::filesystem::
 
   blocks::BlocksOfNetwork found = blocks::extract_blocks(city.network, {}, jobs);
   city.failures = std::move(found.failures);
-  const footprints::BlockFootprints homes = footprints::assign_to_blocks(found.blocks, shapes);
+  const blocks::BlockAssignment homes = blocks::assign_to_blocks(found.blocks, shapes);
   const footprints::MorphologicalTessellation tessellation;
   auto plots = parallel_map<Plots>(found.blocks.size(), jobs, [&](std::size_t b) {
     std::vector<Polygon> inside;

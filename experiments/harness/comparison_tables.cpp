@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/atomic_file.h"
+
 namespace plat::harness {
 namespace {
 
@@ -102,28 +104,13 @@ void ComparisonTables::add(const std::string& dataset, std::span<const MeasuredL
   summaries_.emplace_back(dataset, summary.dump());
 }
 
-std::string ComparisonTables::summary_json() const {
-  json out = json::object();
-  for (const auto& [dataset, text] : summaries_) out[dataset] = json::parse(text);
-  return out.dump(1) + "\n";
-}
-
-std::string parcels_csv_header() {
-  std::string header = "dataset,layer,repetition,block_id,parcel_id";
-  for (const parcels::MeasureColumn& column : parcels::measure_columns()) {
-    header += ',';
-    header += column.name;
-  }
-  return header;
-}
-
-std::string measures_csv(const parcels::ParcelMeasures& measures) {
-  std::string out;
-  for (const parcels::MeasureColumn& column : parcels::measure_columns()) {
-    out += out.empty() ? "" : ",";
-    fmt::format_to(std::back_inserter(out), "{}", column.value(measures));
-  }
-  return out;
+void ComparisonTables::write(const std::filesystem::path& folder) const {
+  write_file(folder / "distances.csv", distances_.text());
+  write_file(folder / "differences.csv", differences_.text());
+  write_file(folder / "histograms.csv", histograms_.text());
+  json summary = json::object();
+  for (const auto& [dataset, text] : summaries_) summary[dataset] = json::parse(text);
+  write_file(folder / "summary.json", summary.dump(1) + "\n");
 }
 
 }  // namespace plat::harness

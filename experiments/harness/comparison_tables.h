@@ -1,10 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "harness/csv.h"
 #include "harness/subdivision.h"
@@ -32,10 +31,8 @@ class ComparisonTables {
   void add(const std::string& dataset, std::span<const MeasuredLayer> layers,
            const statistics::Comparison& comparison);
 
-  [[nodiscard]] const std::string& distances_csv() const { return distances_.text(); }
-  [[nodiscard]] const std::string& differences_csv() const { return differences_.text(); }
-  [[nodiscard]] const std::string& histograms_csv() const { return histograms_.text(); }
-  [[nodiscard]] std::string summary_json() const;
+  /// Writes distances.csv, differences.csv, histograms.csv and summary.json.
+  void write(const std::filesystem::path& folder) const;
 
  private:
   CsvTable distances_;
@@ -43,9 +40,5 @@ class ComparisonTables {
   CsvTable histograms_;
   std::vector<std::pair<std::string, std::string>> summaries_;  ///< data set, JSON text
 };
-
-/// Header of parcels.csv, and the columns of one parcel's measures joined by commas.
-std::string parcels_csv_header();
-std::string measures_csv(const parcels::ParcelMeasures& measures);
 
 }  // namespace plat::harness

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -14,17 +13,12 @@
 #include "harness/city.h"
 #include "harness/city_layers.h"
 #include "harness/comparison_tables.h"
-#include "statistics/distances.h"
+#include "harness/run_tables.h"
 
 namespace plat::harness {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::string_view kBlocksHeader =
-    "dataset,layer,repetition,block_id,status,message,block_area_m2,parcels,observed_parcels,area_"
-    "mean_m2,"
-    "area_deviation_m2,width_mean_m,width_deviation_m,ks_area,options,seed";
 
 /// Seconds per step, for timings.json.
 class Stopwatch {
@@ -41,12 +35,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   json laps_ = json::array();
 };
-
-std::vector<double> areas(const std::vector<parcels::ParcelMeasures>& measures) {
-  std::vector<double> out;
-  for (const auto& m : measures) out.push_back(m.area_m2);
-  return out;
-}
 
 /// One data set on its way through the grid.
 class DatasetRun {
@@ -91,49 +79,22 @@ class DatasetRun {
     watch_.lap(fmt::format("subdivide {} {}", dataset_.name, strategy.label));
   }
 
-  void write_rows(CsvTable& parcels_table, CsvTable& blocks_table) const {
-    const auto add_parcel = [&](const std::string& layer, int repetition, BlockId block,
-                                const std::string& id, const parcels::ParcelMeasures& m) {
-      parcels_table.add_raw_row(fmt::format("{},{},{},{},{},{}", dataset_.name, layer, repetition,
-                                            block.value, CsvTable::quoted(id), measures_csv(m)));
-    };
+  void write_rows(RunTables& tables) const {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       for (std::size_t k = 0; k < observed_.per_block[i].size(); ++k) {
-        add_parcel("observed", 0, blocks_[i].id, city_.blocks[i].parcel_ids[k],
-                   observed_.per_block[i][k]);
+        tables.add_parcel(dataset_.name, "observed", 0, blocks_[i].id,
+                          city_.blocks[i].parcel_ids[k], observed_.per_block[i][k]);
       }
-      const parcels::ParcelStyle& style = styles_[i];
-      blocks_table.add_row(dataset_.name, "observed", 0, blocks_[i].id.value, "ok", "",
-                           area_m2(blocks_[i].contour), style.count, style.count,
-                           style.area_mean_m2, style.area_deviation_m2, style.width_mean_m,
-                           style.width_deviation_m, 0.0, "", "");
+      BlockRow row = row_of("observed", 0, i);
+      row.style = styles_[i];
+      row.ks_area = 0.0;
+      tables.add_block(dataset_.name, row);
     }
     for (std::size_t s = 0; s < divided_.size(); ++s) {
-      const std::string& label = config_.strategies[s].label;
       for (int repetition = 0; repetition < config_.repetitions; ++repetition) {
         const std::vector<DividedBlock>& cell = divided_[s][static_cast<std::size_t>(repetition)];
-        for (std::size_t i = 0; i < cell.size(); ++i) {
-          const DividedBlock& block = cell[i];
-          std::optional<double> ks;
-          if (block.parcels && !observed_.per_block[i].empty())
-            ks = statistics::ks_statistic(areas(observed_.per_block[i]), areas(block.measures));
-          parcels::ParcelStyle style;
-          if (block.parcels) {
-            std::vector<Polygon> shapes;
-            for (std::size_t k = 0; k < block.parcels->size(); ++k) {
-              shapes.push_back((*block.parcels)[k].shape);
-              add_parcel(label, repetition, block.block,
-                         fmt::format("{}", (*block.parcels)[k].id.value), block.measures[k]);
-            }
-            style = parcels::style_of(shapes);
-          }
-          blocks_table.add_row(dataset_.name, label, repetition, block.block.value,
-                               block.parcels ? "ok" : failure_name(block.parcels.error().code),
-                               block.parcels ? std::string() : block.parcels.error().message,
-                               area_m2(blocks_[i].contour), style.count, styles_[i].count,
-                               style.area_mean_m2, style.area_deviation_m2, style.width_mean_m,
-                               style.width_deviation_m, ks, to_string(block.options), block.seed);
-        }
+        for (std::size_t i = 0; i < cell.size(); ++i)
+          write_divided(config_.strategies[s].label, repetition, i, cell[i], tables);
       }
     }
   }
@@ -196,6 +157,37 @@ class DatasetRun {
   }
 
  private:
+  [[nodiscard]] BlockRow row_of(std::string layer, int repetition, std::size_t i) const {
+    BlockRow row;
+    row.layer = std::move(layer);
+    row.repetition = repetition;
+    row.block = blocks_[i].id;
+    row.block_area_m2 = area_m2(blocks_[i].contour);
+    row.observed_parcels = styles_[i].count;
+    return row;
+  }
+
+  void write_divided(const std::string& label, int repetition, std::size_t i,
+                     const DividedBlock& block, RunTables& tables) const {
+    BlockRow row = row_of(label, repetition, i);
+    row.options = to_string(block.options);
+    row.seed = block.seed;
+    if (block.parcels) {
+      std::vector<Polygon> shapes;
+      for (std::size_t k = 0; k < block.parcels->size(); ++k) {
+        const parcels::Parcel& parcel = (*block.parcels)[k];
+        shapes.push_back(parcel.shape);
+        tables.add_parcel(dataset_.name, label, repetition, block.block,
+                          fmt::format("{}", parcel.id.value), block.measures[k]);
+      }
+      row.style = parcels::style_of(shapes);
+      row.ks_area = area_ks(observed_.per_block[i], block.measures);
+    } else {
+      row.failure = block.parcels.error();
+    }
+    tables.add_block(dataset_.name, row);
+  }
+
   std::vector<DividedBlock> run_cell(const StrategyConfig& strategy, int repetition, Resume resume,
                                      ExperimentOutcome& outcome) {
     const CellStore store(out_ / "cells");
@@ -251,25 +243,20 @@ ExperimentOutcome run_experiment(const ExperimentConfig& config, const std::file
   if (error) throw InputError(fmt::format("{}: cannot be made: {}", out.string(), error.message()));
   ExperimentOutcome outcome;
   Stopwatch watch;
-  CsvTable parcels_table(parcels_csv_header());
-  CsvTable blocks_table(kBlocksHeader);
-  ComparisonTables tables;
+  RunTables tables;
+  ComparisonTables comparison;
   json datasets = json::array();
   for (const std::string& name : config.datasets) {
     DatasetRun run(config, geodata::dataset(name), out, jobs, watch);
     for (const StrategyConfig& strategy : config.strategies)
       run.run_strategy(strategy, resume, outcome);
-    run.write_rows(parcels_table, blocks_table);
-    run.write_comparison(tables);
+    run.write_rows(tables);
+    run.write_comparison(comparison);
     run.write_layout(outcome);
     datasets.push_back(run.describe());
   }
-  write_file(out / "parcels.csv", parcels_table.text());
-  write_file(out / "blocks.csv", blocks_table.text());
-  write_file(out / "distances.csv", tables.distances_csv());
-  write_file(out / "differences.csv", tables.differences_csv());
-  write_file(out / "histograms.csv", tables.histograms_csv());
-  write_file(out / "summary.json", tables.summary_json());
+  tables.write(out);
+  comparison.write(out);
   watch.lap("write tables");
   write_file(out / "timings.json", watch.laps().dump(1) + "\n");
   json manifest = build_info();

@@ -173,17 +173,20 @@ ExperimentConfig read_config(const std::string& file_or_name) {
   }
 }
 
+json options_json(const OptionMap& options) {
+  json object = json::object();
+  for (const auto& [key, value] : options) {
+    std::visit([&](const auto& v) { object[key] = v; }, value);
+  }
+  return object;
+}
+
 json to_json(const ExperimentConfig& config) {
   json out;
   out["experiment"] = config.experiment;
   out["datasets"] = config.datasets;
   out["repetitions"] = config.repetitions;
   out["seed"] = config.seed;
-  const auto options_json = [](const OptionMap& map) {
-    json object = json::object();
-    for (const auto& [key, value] : map) std::visit([&](const auto& v) { object[key] = v; }, value);
-    return object;
-  };
   out["statistics"] = options_json(to_option_map(config.statistics));
   for (const StrategyConfig& s : config.strategies) {
     out["strategies"].push_back({{"label", s.label},

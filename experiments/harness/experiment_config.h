@@ -43,6 +43,9 @@ ExperimentConfig parse_config(const nlohmann::json& json, const std::string& sou
 /// (`experiments/<name>/config.json`).
 ExperimentConfig read_config(const std::string& file_or_name);
 
+/// Options as a JSON object.
+nlohmann::json options_json(const OptionMap& options);
+
 /// The config with every default filled in, as the manifest keeps it.
 nlohmann::json to_json(const ExperimentConfig& config);
 

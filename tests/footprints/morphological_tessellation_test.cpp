@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "blocks/block_assignment.h"
 #include "blocks/block_extraction.h"
 #include "core/validity.h"
 #include "core/working_grid.h"
@@ -125,6 +126,9 @@ TEST(MorphologicalTessellation, CoversAnyBlockWhateverTheOrderOfFootprints) {
     const auto t = MorphologicalTessellation().tessellate(block, footprints);
     ASSERT_TRUE(t) << t.error().message;
     expect_coverage(block, *t);
+    EXPECT_TRUE(std::is_sorted(t->footprint_of_plot.begin(), t->footprint_of_plot.end(),
+                               std::less_equal<std::uint32_t>()))
+        << "a footprint has two plots";
     for (const parcels::Parcel& plot : t->plots)
       EXPECT_FALSE(find_ogc_defect(plot.shape)) << "plot " << plot.id.value;
     covered += t->plots.size() > 1 ? 1 : 0;
@@ -141,7 +145,7 @@ TEST(AssignToBlocks, GoesByAnInteriorPoint) {
                                           block_of(rectangle(50, 0, 40, 30))};
   const std::vector<Polygon> footprints{
       rectangle(60, 5, 5, 5), rectangle(41, 5, 8, 5), rectangle(30, 5, 12, 5), {}};
-  const BlockFootprints found = assign_to_blocks(blocks, footprints);
+  const blocks::BlockAssignment found = blocks::assign_to_blocks(blocks, footprints);
   EXPECT_EQ(found.of_block[0], (std::vector<std::uint32_t>{2}));
   EXPECT_EQ(found.of_block[1], (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(found.outside, (std::vector<std::uint32_t>{1, 3}));
@@ -161,7 +165,7 @@ TEST(MorphologicalTessellation, SanFranciscoIsCoveredBlockByBlock) {
     footprints.insert(footprints.end(), feature.polygons.begin(), feature.polygons.end());
 
   const auto start = std::chrono::steady_clock::now();
-  const BlockFootprints assigned = assign_to_blocks(found.blocks, footprints);
+  const blocks::BlockAssignment assigned = blocks::assign_to_blocks(found.blocks, footprints);
   const MorphologicalTessellation tessellation;
   std::size_t plots = 0;
   std::size_t own_plot = 0;
