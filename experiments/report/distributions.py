@@ -7,7 +7,7 @@ import numpy
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from run_data import OBSERVED, layer_word, plots_word
+from run_data import OBSERVED, layer_word, plots_word, short_title
 from style import (DISTANCES, GENERATED_BLUE, LAYER_COLOURS, LAYER_DASHES, OBSERVED_RED, add_bottom_legend, name_of,
                    title_of)
 
@@ -67,7 +67,7 @@ def draw_histograms(figures, run, dataset, strategy):
     add_bottom_legend(figure, [Patch(color=OBSERVED_RED, alpha=0.45, label=plots_word(dataset)),
                                Patch(color=GENERATED_BLUE, alpha=0.45, label=f"procedural ({strategy})"),
                                Patch(facecolor="white", edgecolor="#777777", hatch="////", label="all beyond the scale")])
-    figure.suptitle(f"{dataset['title']}: {plots_word(dataset)} (red) and {strategy} (blue), not normalised")
+    figure.suptitle(f"{short_title(dataset)}: {plots_word(dataset)} (red) and {strategy} (blue), not normalised")
     name = f"histograms_{strategy}_{dataset['name']}"
     figures.save(figure, name)
     return name
@@ -111,7 +111,7 @@ def draw_ecdfs(figures, run, dataset):
         axes.set_xlabel(title_of(measure))
         axes.set_ylabel("share of parcels")
     add_bottom_legend(figure, list(handles.values()))
-    figure.suptitle(f"{dataset['title']}: distribution functions, {plots_word(dataset)} and strategies")
+    figure.suptitle(f"{short_title(dataset)}: distribution functions, {plots_word(dataset)} and strategies")
     name = f"ecdf_{dataset['name']}"
     figures.save(figure, name)
     return name
@@ -146,7 +146,7 @@ def draw_distances(figures, run, dataset):
         axes.grid(axis="x", color="#eeeeee", zorder=-1)
     panels.flat[0].set_ylim(len(run.measures) - 0.4, -0.6)
     add_bottom_legend(figure, list(handles.values()))
-    figure.suptitle(f"{dataset['title']}: distance from the {plots_word(dataset)}, 95 % intervals (grey: noise floor)")
+    figure.suptitle(f"{short_title(dataset)}: distance from the {plots_word(dataset)}, 95 % intervals (grey: noise floor)")
     name = f"distances_{dataset['name']}"
     figures.save(figure, name)
     return name

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 
 from maps import add_scale_bar, frame_axes, path_of
 from matplotlib.collections import PathCollection
-from run_data import OBSERVED, plots_word
+from run_data import OBSERVED, plots_word, short_title
 from style import Colouring
 
 WORST = 6
@@ -65,7 +65,7 @@ def draw_gallery(figures, run, dataset, layout, strategy):
             word = plots_word(dataset) if side == 0 else strategy
             detail = f"block {row.block_id}" if side == 0 else f"KS of area {row.ks_area:.2f}"
             axes.set_title(f"{word}: {len(own)}\n{detail}", fontsize=8)
-    figure.suptitle(f"{dataset['title']}: the {len(rows)} blocks where {strategy} is farthest from the "
+    figure.suptitle(f"{short_title(dataset)}: the {len(rows)} blocks where {strategy} is farthest from the "
                     f"{plots_word(dataset)}")
     name = f"worst_{strategy}_{dataset['name']}"
     figures.save(figure, name)

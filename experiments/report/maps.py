@@ -9,7 +9,7 @@ from matplotlib.collections import PathCollection
 from matplotlib.patches import Rectangle
 from matplotlib.path import Path
 
-from run_data import OBSERVED, layer_word, plots_word
+from run_data import OBSERVED, layer_word, plots_word, short_title
 from style import Colouring, name_of, title_of
 
 MAP_MEASURES = ("aspect_ratio", "area_m2", "neighbours")
@@ -42,7 +42,10 @@ class Layout:
     def __init__(self, layers):
         self.layers = layers
         self.paths = {name: [path_of(g) for g in frame.geometry] for name, frame in layers.items()}
-        self.bounds = numpy.array(layers["blocks"].total_bounds)
+        self.boxes = {name: numpy.array([p.get_extents().extents for p in paths])
+                      for name, paths in self.paths.items()}
+        low, high = self.boxes["blocks"][:, :2].min(axis=0), self.boxes["blocks"][:, 2:].max(axis=0)
+        self.bounds = numpy.concatenate([low, high])
 
     def zoom(self):
         """The neighbourhood of ZOOM_BLOCKS blocks with most observed parcels per area."""
@@ -50,7 +53,7 @@ class Layout:
         if len(blocks) <= ZOOM_BLOCKS:
             return None
         # Bounds serve as centres: the order must not hang on how a library finds centroids.
-        bounds = blocks.geometry.bounds.to_numpy()
+        bounds = self.boxes["blocks"]
         centres = 0.5 * (bounds[:, :2] + bounds[:, 2:])
         counts = self.layers[OBSERVED]["block_id"].value_counts()
         parcels = blocks["block_id"].map(counts).fillna(0).to_numpy()
@@ -83,12 +86,14 @@ class Layout:
 
     def _add(self, axes, collection, bounds):
         """Cut at the bounds, so that the strip of the scale bar stays free."""
-        axes.add_collection(collection)
+        # The axes have their limits already; measuring every path for the layout would cost seconds.
+        collection.set_in_layout(False)
+        axes.add_collection(collection, autolim=False)
         if not numpy.array_equal(bounds, self.bounds):
             collection.set_clip_path(Rectangle(bounds[:2], *(bounds[2:] - bounds[:2]), transform=axes.transData))
 
     def _near(self, layer, bounds):
-        own = self.layers[layer].geometry.bounds.to_numpy()
+        own = self.boxes[layer]
         is_near = ((own[:, 0] <= bounds[2]) & (own[:, 2] >= bounds[0]) &
                    (own[:, 1] <= bounds[3]) & (own[:, 3] >= bounds[1]))
         return numpy.flatnonzero(is_near)
@@ -147,7 +152,7 @@ def draw_map(figures, run, dataset, layout, measure, bounds, name, scope):
     bar = figure.colorbar(mappable, ax=grid, shrink=0.5, aspect=30, extend=colouring.extend, pad=0.02)
     bar.set_label(title_of(measure))
     _label_colour_bar(bar, colouring)
-    figure.suptitle(f"{dataset['title']}: {name_of(measure)}, {plots_word(dataset)} and strategies, {scope}")
+    figure.suptitle(f"{short_title(dataset)}: {name_of(measure)}, {plots_word(dataset)} and strategies, {scope}")
     figures.save(figure, name)
 
 

@@ -108,3 +108,8 @@ def plots_word(dataset):
 def layer_word(dataset, layer):
     """A layer's name in legends: the reference is never called observed when it is not."""
     return plots_word(dataset) if layer == OBSERVED else layer
+
+
+def short_title(dataset):
+    """The place, for titles of figures and tables: what comes before a colon."""
+    return dataset["title"].split(":")[0]

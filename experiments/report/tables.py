@@ -4,7 +4,7 @@ import html
 
 import pandas
 
-from run_data import OBSERVED, layer_word, plots_word
+from run_data import OBSERVED, layer_word, plots_word, short_title
 from style import DISTANCES, name_of, unit_of
 from verdict import ALPHA, number
 
@@ -42,7 +42,7 @@ def overview_table(run, dataset):
         access = f"{100 * own['has_street_access'].mean():.1f} %" if len(own) and "has_street_access" in own else "–"
         count = len(own) / (1 if layer == OBSERVED else run.repetitions)
         rows.append([layer_word(dataset, layer), f"{count:,.0f}", *medians, access, failed])
-    return table(f"{dataset['title']}: {plots_word(dataset)} and strategies",
+    return table(f"{short_title(dataset)}: {plots_word(dataset)} and strategies",
                  ["layer", "parcels", "median area [m²]", "median width [m]", "median aspect ratio",
                   "median frontage [m]", "with street access", "blocks undivided"], rows)
 
@@ -66,7 +66,7 @@ def distance_tables(run, dataset):
                              number(row.noise_mean), interval(row.noise_low, row.noise_high),
                              (ratio, "near" if is_near else ""), f"{row.n_blocks:,}", f"{row.n_generated:,}"])
         out.append(table(
-            f"{dataset['title']}: {title} distance from the {plots_word(dataset)}, nearest first",
+            f"{short_title(dataset)}: {title} distance from the {plots_word(dataset)}, nearest first",
             ["measure", "strategy", "distance", "95 % interval", "noise floor", "its 95 % range", "ratio", "blocks",
              "parcels"], rows))
     return out
@@ -88,7 +88,7 @@ def difference_table(run, dataset, kind):
                      nearer if is_significant else "not decided"])
     if not body:
         return ""
-    return table(f"{dataset['title']}: {DISTANCES[kind]}, paired differences on the same blocks against "
+    return table(f"{short_title(dataset)}: {DISTANCES[kind]}, paired differences on the same blocks against "
                  f"{plots_word(dataset)}",
                  ["measure", "pair", "difference", "95 % interval", "p", "p (Holm)", "effect size", "closer"], body)
 
@@ -104,5 +104,5 @@ def failure_table(run, dataset):
         if group["block_id"].nunique() > 8:
             ids += ", …"
         rows.append([layer, status, len(group), ids, group["message"].iloc[0]])
-    return table(f"{dataset['title']}: blocks left undivided ({plots_word(dataset)} are there)",
+    return table(f"{short_title(dataset)}: blocks left undivided ({plots_word(dataset)} are there)",
                  ["strategy", "code", "blocks", "which", "first message"], rows)
