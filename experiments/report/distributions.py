@@ -67,7 +67,8 @@ def draw_histograms(figures, run, dataset, strategy):
     add_bottom_legend(figure, [Patch(color=OBSERVED_RED, alpha=0.45, label=plots_word(dataset)),
                                Patch(color=GENERATED_BLUE, alpha=0.45, label=f"procedural ({strategy})"),
                                Patch(facecolor="white", edgecolor="#777777", hatch="////", label="all beyond the scale")])
-    figure.suptitle(f"{short_title(dataset)}: {plots_word(dataset)} (red) and {strategy} (blue), not normalised")
+    figure.suptitle(f"{short_title(dataset)}: {plots_word(dataset)} (red) and {strategy} (blue), "
+                    "not normalised")
     name = f"histograms_{strategy}_{dataset['name']}"
     figures.save(figure, name)
     return name
@@ -146,7 +147,8 @@ def draw_distances(figures, run, dataset):
         axes.grid(axis="x", color="#eeeeee", zorder=-1)
     panels.flat[0].set_ylim(len(run.measures) - 0.4, -0.6)
     add_bottom_legend(figure, list(handles.values()))
-    figure.suptitle(f"{short_title(dataset)}: distance from the {plots_word(dataset)}, 95 % intervals (grey: noise floor)")
+    figure.suptitle(f"{short_title(dataset)}: distance from the {plots_word(dataset)}, 95 % intervals "
+                    "(grey: noise floor)")
     name = f"distances_{dataset['name']}"
     figures.save(figure, name)
     return name

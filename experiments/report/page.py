@@ -94,23 +94,24 @@ def dataset_html(run, dataset, figures, names):
     section("Worst blocks", "worst")
     out.append(f"<h3>Distances ({plots_word(dataset)})</h3>")
     out.extend(distance_tables(run, dataset))
-    out.append("<p>Bold: the nearest strategy. Green: within the range of the noise floor. Ratio: distance by mean noise "
-               "floor.</p>")
+    out.append("<p>Bold: the nearest strategy. Green: within the range of the noise floor. Ratio: distance by mean "
+               "noise floor.</p>")
     out.append(f"<h3>Differences between strategies ({plots_word(dataset)})</h3>")
     tables = [difference_table(run, dataset, kind) for kind in ("ks", "wasserstein", "jensen_shannon")]
     if any(tables):
         out.append(tables[0])
-        out.append("<details><summary>The same for Wasserstein-1 and Jensen-Shannon</summary>" + "".join(tables[1:]) +
-                   "</details>")
-        out.append("<p>Difference: first minus second; negative where the first is closer. Bold: significant at 5 % after "
-                   "Holm's adjustment over all measures and pairs of one distance. Effect size: paired Cliff's delta "
+        out.append("<details><summary>The same for Wasserstein-1 and Jensen-Shannon</summary>" +
+                   "".join(tables[1:]) + "</details>")
+        out.append("<p>Difference: first minus second; negative where the first is closer. Bold: significant at 5 % "
+                   "after Holm's adjustment over all measures and pairs of one distance. Effect size: paired Cliff's delta "
                    "over blocks, −1 (the first is closer in every block) to 1.</p>")
     else:
         out.append("<p>No two strategies have parcels in the same blocks.</p>")
     failures = failure_table(run, dataset)
-    out.append(f"<h3>Failures ({plots_word(dataset)})</h3>" + (failures or "<p>Every strategy divided every block.</p>"))
-    out.append(f"<p>In QGIS: Layer, Add Layer, Add Vector Layer, <code>layout_{escape(dataset['name'])}.gpkg</code>; one "
-               "layer per strategy, with every measure as a field, and <code>failures</code>.</p>")
+    out.append(f"<h3>Failures ({plots_word(dataset)})</h3>" +
+               (failures or "<p>Every strategy divided every block.</p>"))
+    out.append(f"<p>In QGIS: Layer, Add Layer, Add Vector Layer, <code>layout_{escape(dataset['name'])}.gpkg</code>; "
+               "one layer per strategy, with every measure as a field, and <code>failures</code>.</p>")
     return "\n".join(out)
 
 
