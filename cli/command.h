@@ -8,7 +8,8 @@ namespace plat::cli {
 /// How the program ends. Bad input is thrown as InputError, which main turns into kBadInput.
 enum ExitStatus { kDone = 0, kFinishedWithFailures = 1, kBadInput = 2 };
 
-/// Adds one subcommand with its options, help and example; its callback stores what to do in `action`.
+/// Adds one subcommand with its options, help and example; its callback stores what to do in
+/// `action`.
 using Action = std::function<ExitStatus()>;
 void add_data_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);

@@ -82,10 +82,10 @@ Expected<BlockPartition> BlockPartition::cut(const blocks::Block& block,
   const std::size_t contour_size = segments.size();
   segments.insert(segments.end(), cuts.begin(), cuts.end());
   PlanarGraph noded = node_segments(segments);
-  // A cut that ends within a grid step of the tip of a spike would close it: such cuts are left out, one by one where
-  // need be.
-  for (std::vector<std::uint32_t> closing = find_closing_cuts(noded, contour_size); !closing.empty();
-       closing = find_closing_cuts(noded, contour_size)) {
+  // A cut that ends within a grid step of the tip of a spike would close it: such cuts are left
+  // out, one by one where need be.
+  for (std::vector<std::uint32_t> closing = find_closing_cuts(noded, contour_size);
+       !closing.empty(); closing = find_closing_cuts(noded, contour_size)) {
     for (const std::uint32_t source : closing) segments[source].b = segments[source].a;
     noded = node_segments(segments);
   }
