@@ -117,7 +117,7 @@ SkeletonSubdivider SkeletonSubdivider::fitted(const ParcelStyle& style) const {
   o.area_min_m2 = area.low;
   o.area_max_m2 = area.high;
   o.width_min_m = width.low;
-  o.width_max_m = width.high;
+  o.width_max_m = std::max(0.5, width.high);  // observed slivers must not leave the option's range
   return SkeletonSubdivider(o);
 }
 
