@@ -226,7 +226,10 @@ class CornerRegions {
   /// Whether the open segment meets neither the contour nor a wall of the strip; its ends, which
   /// lie on them, are left out of the test.
   [[nodiscard]] bool is_inside_strip(std::uint32_t strip, Point from, Point to) const {
-    const Segment probe{lerp(from, to, 1e-6), lerp(from, to, 1.0 - 1e-6)};
+    // Its ends lie on what must not be crossed, give or take the rounding to the grid.
+    const double margin =
+        std::min(0.25, 4.0 * kGridStep_m / std::max(distance(from, to), kGridStep_m));
+    const Segment probe{lerp(from, to, margin), lerp(from, to, 1.0 - margin)};
     const auto crosses = [&](const Segment& s) {
       return orientation(s.a, s.b, probe.a) * orientation(s.a, s.b, probe.b) < 0.0 &&
              orientation(probe.a, probe.b, s.a) * orientation(probe.a, probe.b, s.b) < 0.0;
