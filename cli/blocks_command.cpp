@@ -9,6 +9,7 @@
 #include "command.h"
 #include "geodata/layer_io.h"
 #include "harness/observed_layers.h"
+#include "output_file.h"
 #include "streets/network_cleaning.h"
 #include "streets/street_import.h"
 #include "streets/street_width.h"
@@ -233,6 +234,7 @@ Result find_blocks(const Arguments& arguments) {
 ExitStatus run(const Arguments& arguments) {
   if (arguments.streets.empty() && arguments.parcels.empty())
     throw InputError("plat blocks: give --streets, --parcels or both");
+  expect_output(arguments.out, {arguments.streets, arguments.parcels});
   const Result result = find_blocks(arguments);
   const std::vector<Layer> layers{blocks_layer(result), edges_layer(result), streets_layer(result),
                                   repairs_layer(result), failures_layer(result)};

@@ -36,7 +36,9 @@ void add_compare_command(CLI::App& app, Action& action) {
   command->add_option("--resamples", args->options.resamples, "bootstrap resamples of blocks")
       ->capture_default_str()
       ->check(CLI::Range(20, 1000000));
-  command->add_option("--seed", args->seed, "random seed of the bootstrap")->capture_default_str();
+  command->add_option("--seed", args->seed, "random seed of the bootstrap")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--jobs", args->jobs.count,
                    "threads, 0 = all cores; results do not depend on it")

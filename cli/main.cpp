@@ -5,6 +5,30 @@
 
 #include "command.h"
 #include "core/failure.h"
+#include "core/options.h"
+
+namespace {
+
+/// What CLI11 says of wrong arguments, on one line, with the command whose help says it right.
+void print_usage_error(const CLI::App& app, std::string_view first, const CLI::ParseError& error) {
+  std::string what = error.what();
+  if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
+    std::vector<std::string_view> known;
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    what = fmt::format("no command \"{}\"{}", first, plat::did_you_mean(first, known));
+  }
+  for (char& c : what) {
+    if (c == '\n') c = ' ';
+  }
+  std::string command = "plat";
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    command += " " + at->get_name();
+  }
+  fmt::print(stderr, "plat: {}; {} --help says more\n", what, command);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
@@ -25,7 +49,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     return action();
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? plat::cli::kDone : plat::cli::kBadInput;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help or version was asked for
+    print_usage_error(app, argc > 1 ? argv[1] : "", error);
+    return plat::cli::kBadInput;
   } catch (const plat::InputError& error) {
     fmt::print(stderr, "plat: {}\n", error.what());
     return plat::cli::kBadInput;

@@ -33,8 +33,10 @@ void add_run_command(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--data", args->data,
                       "data set instead of the config's (plat list datasets)");
-  command->add_option("--seed", args->seed,
-                      "random seed instead of the config's; same seed, same bytes");
+  command
+      ->add_option("--seed", args->seed,
+                   "random seed instead of the config's; same seed, same bytes")
+      ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--jobs", args->jobs.count,
                    "threads; 0 = all cores. Results do not depend on it")

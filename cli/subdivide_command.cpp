@@ -10,6 +10,7 @@
 #include "harness/block_reading.h"
 #include "harness/city_layers.h"
 #include "harness/subdivision.h"
+#include "output_file.h"
 
 namespace plat::cli {
 namespace {
@@ -40,6 +41,7 @@ harness::StrategyConfig strategy_of(const Arguments& args) {
 
 ExitStatus run(const Arguments& args) {
   const harness::StrategyConfig strategy = strategy_of(args);
+  expect_output(args.out, {args.blocks, args.streets, args.observed});
   harness::ReadBlocks read =
       harness::read_blocks(geodata::parse_layer_source(args.blocks), args.jobs);
   harness::label_from_streets(read, args.streets, args.jobs);
@@ -62,7 +64,8 @@ ExitStatus run(const Arguments& args) {
     failures.add(fmt::format("{}", divided[i].block.value), args.strategy, 0,
                  divided[i].parcels.error(), read.blocks[i].contour);
   }
-  const std::vector<geodata::Layer> layers{parcels.layer(), failures.layer()};
+  const std::vector<geodata::Layer> layers{
+      parcels.layer(), harness::block_layer(read.blocks, read.frame), failures.layer()};
   geodata::write_layers(args.out, layers);
   fmt::print("{}: {} parcels in {} blocks, {} failures\n", args.out,
              parcels.layer().features.size(), read.blocks.size(), failures.layer().features.size());
@@ -88,7 +91,8 @@ void add_subdivide_command(CLI::App& app, Action& action) {
   command->add_option("--set", args->settings, "option of the strategy, key=value; may be repeated")
       ->take_all();
   command->add_option("--seed", args->seed, "random seed; same seed, same bytes")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--jobs", args->jobs.count,
                    "threads, 0 = all cores; results do not depend on it")
@@ -96,8 +100,8 @@ void add_subdivide_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 1024));
   command
       ->add_option("--out", args->out,
-                   "GeoPackage to write: layers parcels (block and parcel id, strategy, measures) "
-                   "and failures")
+                   "GeoPackage to write: layers parcels (block and parcel id, strategy, measures), "
+                   "blocks (block id, the input feature it was) and failures")
       ->required();
   command->footer(
       "Example:\n  plat subdivide --blocks city.gpkg:blocks --streets city.gpkg:streets --strategy "

@@ -14,13 +14,20 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.flush();
-    if (!out)
+    if (!out) {
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
       throw InputError(path.string() +
                        ": cannot be written: is the folder there, writable and not full?");
+    }
   }
   std::error_code error;
   std::filesystem::rename(temporary, path, error);
-  if (error) throw InputError(path.string() + ": cannot be replaced: " + error.message());
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw InputError(path.string() + ": cannot be replaced: " + error.message());
+  }
 }
 
 }  // namespace plat::harness

@@ -84,8 +84,8 @@ std::optional<std::vector<DividedBlock>> CellStore::load(const std::string& name
   std::ifstream in(folder_ / (name + ".json"));
   if (!in) return std::nullopt;
   const json cell = json::parse(in, nullptr, false);
-  if (!cell.is_object() || cell.value("key", "") != key) return std::nullopt;
   try {
+    if (!cell.is_object() || cell.at("key") != key) return std::nullopt;
     std::vector<DividedBlock> out;
     for (const json& block : cell.at("blocks")) out.push_back(block_from(block));
     return out;
@@ -96,7 +96,10 @@ std::optional<std::vector<DividedBlock>> CellStore::load(const std::string& name
 
 void CellStore::save(const std::string& name, const std::string& key,
                      const std::vector<DividedBlock>& blocks) const {
-  std::filesystem::create_directories(folder_);
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error)
+    throw InputError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
   json cell{{"key", key}, {"blocks", json::array()}};
   for (const DividedBlock& block : blocks) cell["blocks"].push_back(block_json(block));
   write_file(folder_ / (name + ".json"), cell.dump());

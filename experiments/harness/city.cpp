@@ -148,7 +148,7 @@ City load_tessellated(const Dataset& dataset, Jobs jobs, const std::filesystem::
 
 }  // namespace
 
-City load_city(const Dataset& dataset, Jobs jobs, const std::filesystem::path& folder) {
+void expect_present(const Dataset& dataset, const std::filesystem::path& folder) {
   if (!dataset.observed || dataset.observed->plots == geodata::PlotOrigin::kNone) {
     throw InputError(fmt::format("data set \"{}\" has no plots to compare with: see plat data list",
                                  dataset.name));
@@ -157,6 +157,10 @@ City load_city(const Dataset& dataset, Jobs jobs, const std::filesystem::path& f
     throw InputError(fmt::format("data set \"{}\" is not complete in {}: plat data fetch {}",
                                  dataset.name, folder.string(), dataset.name));
   }
+}
+
+City load_city(const Dataset& dataset, Jobs jobs, const std::filesystem::path& folder) {
+  expect_present(dataset, folder);
   City city = dataset.observed->plots == geodata::PlotOrigin::kObserved
                   ? load_observed(dataset, jobs, folder)
                   : load_tessellated(dataset, jobs, folder);

@@ -31,11 +31,15 @@ struct City {
   std::vector<blocks::BlockFailure> failures;  ///< refused parcels and blocks
 };
 
+/// @throws InputError where the files are not in `folder`, or the data set has no plots
+void expect_present(const geodata::Dataset& dataset,
+                    const std::filesystem::path& folder = geodata::data_dir());
+
 /// Reads a data set of the catalogue by its `observed` mapping: where parcels are observed, blocks
 /// are their unions, labelled from the centrelines or from the gaps between blocks; where plots are
 /// to be tessellated, blocks are faces of the street network, and plots are cells around the
 /// footprints in each. Blocks keep the order of their first parcel; ids are 0 .. n-1.
-/// @throws InputError where the files are not in `folder`, or the data set has no plots
+/// @throws InputError as expect_present, and for files that cannot be read
 City load_city(const geodata::Dataset& dataset, Jobs jobs = {},
                const std::filesystem::path& folder = geodata::data_dir());
 

@@ -238,9 +238,11 @@ class DatasetRun {
 
 ExperimentOutcome run_experiment(const ExperimentConfig& config, const std::filesystem::path& out,
                                  Jobs jobs, Resume resume) {
+  for (const std::string& name : config.datasets) expect_present(geodata::dataset(name));
   std::error_code error;
   std::filesystem::create_directories(out, error);
   if (error) throw InputError(fmt::format("{}: cannot be made: {}", out.string(), error.message()));
+  std::filesystem::remove(out / "manifest.json", error);  // what is there now is no longer a run
   ExperimentOutcome outcome;
   Stopwatch watch;
   RunTables tables;

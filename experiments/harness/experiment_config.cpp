@@ -65,6 +65,16 @@ class ObjectReader {
   std::vector<std::string_view> known_;
 };
 
+/// Calls `check`, and puts the place in the config before what it refuses.
+template <class Check>
+void naming(const std::string& where, Check check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", where, error.what()));
+  }
+}
+
 OptionMap read_options(const json& object, const std::string& where) {
   OptionMap out;
   if (!object.is_object()) throw InputError(where + ": \"options\" must be a JSON object");
@@ -103,8 +113,9 @@ StrategyConfig read_strategy(const json& object, const std::string& where) {
       throw InputError(
           fmt::format("{}: label \"{}\" is taken by a layer of that name", where, taken));
   }
-  static_cast<void>(
-      parcels::block_subdividers().make(out.name, out.options));  // a typo never runs an experiment
+  naming(where, [&] {  // a typo never runs an experiment
+    static_cast<void>(parcels::block_subdividers().make(out.name, out.options));
+  });
   return out;
 }
 
@@ -123,7 +134,7 @@ ExperimentConfig parse_config(const json& object, const std::string& source) {
   }
   for (const json& name : *datasets) {
     if (!name.is_string()) throw InputError(source + ": \"datasets\" must hold names");
-    out.datasets.push_back(geodata::dataset(name.get<std::string>()).name);
+    naming(source, [&] { out.datasets.push_back(geodata::dataset(name.get<std::string>()).name); });
   }
   const json* strategies = reader.find("strategies");
   if (strategies == nullptr || !strategies->is_array() || strategies->empty()) {
@@ -205,7 +216,10 @@ std::vector<ExperimentSummary> list_experiments() {
     if (!in) continue;
     const json object = json::parse(in, nullptr, false);
     if (!object.is_object()) continue;
-    out.push_back({entry.path().filename().string(), object.value("question", "")});
+    const auto question = object.find("question");
+    const bool has_question = question != object.end() && question->is_string();
+    out.push_back({entry.path().filename().string(),
+                   has_question ? question->get<std::string>() : std::string()});
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return out;

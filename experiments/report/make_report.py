@@ -57,14 +57,14 @@ def main(arguments=None):
     except ModuleNotFoundError as error:
         if error.name not in ("matplotlib", "geopandas", "pandas", "numpy", "fiona", "shapely"):
             raise
-        print(f"report: Python has no {error.name}; use the distribution's own /usr/bin/python3 with "
+        print(f"plat: report: Python has no {error.name}; use the distribution's own /usr/bin/python3 with "
               "python3-matplotlib and python3-geopandas", file=sys.stderr)
         return 2
     except Exception as error:
         from run_data import RunError
         if not isinstance(error, RunError):
             raise
-        print(f"report: {error}", file=sys.stderr)
+        print(f"plat: report: {error}", file=sys.stderr)
         return 2
     print(page)
     return 0

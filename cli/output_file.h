@@ -1,0 +1,14 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+namespace plat::cli {
+
+/// Refuses, before any work is done, an output that could not be written afterwards: another ending
+/// than .gpkg, a folder that is not there or closed to writing, or one of the input files
+/// ("FILE[:layer]", empty ones are skipped), which would be lost.
+/// @throws InputError
+void expect_output(const std::string& path, std::initializer_list<std::string> inputs);
+
+}  // namespace plat::cli
