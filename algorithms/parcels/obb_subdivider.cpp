@@ -1,5 +1,7 @@
 #include "parcels/obb_subdivider.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,8 +28,11 @@ class Recursion {
   Recursion(const ObbSubdivider::Options& options, std::vector<Segment>& cuts)
       : options_(options), cuts_(cuts) {}
 
+  [[nodiscard]] bool is_exceeded() const { return lots_ > kMaxLotsPerBlock; }
+
   // Algorithm 2, recSubdivOBB(l).
   void divide(const Lot& lot, std::uint64_t seed, int depth) {
+    if (is_exceeded()) return;
     const OrientedBox box = minimum_area_box(lot);
     if (depth >= kMaxDepth || area_m2(lot) < options_.area_max_m2 ||
         front_width_m(lot, box) < options_.width_max_m)
@@ -45,6 +50,7 @@ class Recursion {
       across = std::move(along);
     }
     cuts_.insert(cuts_.end(), across.cuts.begin(), across.cuts.end());
+    lots_ += across.lots.size() - 1;
     std::uint64_t child = 0;
     for (const Lot& part : across.lots) divide(part, derive_seed(seed, {child++}), depth + 1);
   }
@@ -100,13 +106,20 @@ class Recursion {
 
   const ObbSubdivider::Options& options_;
   std::vector<Segment>& cuts_;
+  std::size_t lots_ = 1;
 };
 
 }  // namespace
 
 Expected<std::vector<Parcel>> ObbSubdivider::subdivide(const blocks::Block& block, Rng& rng) const {
   std::vector<Segment> cuts;
-  Recursion(options_, cuts).divide(lot_of(block), rng(), 0);
+  Recursion recursion(options_, cuts);
+  recursion.divide(lot_of(block), rng(), 0);
+  if (recursion.is_exceeded()) {
+    return fail(
+        FailureCode::kNoConvergence,
+        fmt::format("more than {} lots: raise area_max_m2 or width_max_m", kMaxLotsPerBlock));
+  }
   auto partition = BlockPartition::cut(block, cuts);
   if (!partition) return tl::unexpected<Failure>(partition.error());
   partition->join_slivers(kSliver_m2);

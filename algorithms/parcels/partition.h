@@ -19,6 +19,10 @@ struct ContourEdge {
   friend auto operator<=>(const ContourEdge&, const ContourEdge&) = default;
 };
 
+/// More lots than this in one block are an option out of all proportion to the block's size: a
+/// failure, before they fill the memory.
+inline constexpr std::size_t kMaxLotsPerBlock = 50'000;
+
 /// A block cut into cells, and cells joined into regions: the one way in which strategies and
 /// tessellations make parcels. A strategy only says where to cut and what to join; that the parcels
 /// are a coverage follows from noding contour and cuts together (core/planar_graph.h, ADR 0003).

@@ -1,5 +1,7 @@
 #include "parcels/skeleton_subdivider.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -92,6 +94,14 @@ Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block&
   if (!layout) return tl::unexpected<Failure>(layout.error());
   // slice(s)
   const double spacing_m = std::max(0.5, 0.5 * (options_.width_min_m + options_.width_max_m));
+  double front_m = 0.0;
+  for (const Strip& strip : layout->strips) front_m += front_length_m(*layout, strip);
+  if (front_m / spacing_m > static_cast<double>(kMaxLotsPerBlock)) {
+    return fail(FailureCode::kNoConvergence,
+                fmt::format("{:.0f} m of streets make more than {} lots {:g} m wide: raise "
+                            "width_min_m or width_max_m",
+                            front_m, kMaxLotsPerBlock, spacing_m));
+  }
   std::vector<Segment> cuts = slice_strips(*layout, {spacing_m, options_.irregularity}, rng);
   cuts.insert(cuts.end(), layout->walls.begin(), layout->walls.end());
   auto partition = BlockPartition::cut(block, cuts);
