@@ -291,7 +291,10 @@ void keep_kind(Feature& feature, GeometryKind kind) {
 SpatialReference source_reference(OGRLayer& layer, const std::string& name,
                                   const std::string& file) {
   const OGRSpatialReference* found = layer.GetSpatialRef();
-  if (found == nullptr || found->IsEmpty() != 0 ||
+  // GeoPackage's two names for "not known" (srs_id 0 and -1), of which the first looks geographic.
+  const bool is_undefined = found != nullptr && found->GetName() != nullptr &&
+                            std::string_view(found->GetName()).starts_with("Undefined ");
+  if (found == nullptr || is_undefined || found->IsEmpty() != 0 ||
       (found->IsProjected() == 0 && found->IsGeographic() == 0)) {
     throw InputError(
         fmt::format("{}: has no coordinate reference system; give it one: ogr2ogr -a_srs EPSG:CODE "
