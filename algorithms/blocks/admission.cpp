@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "blocks/admission_internal.h"
+#include "core/planar_graph.h"
 #include "core/validity.h"
 
 namespace plat::blocks::detail {
@@ -25,10 +26,11 @@ Admitted admit_region(const Geos& geos, const Polygon& region, double min_area_m
     }
   };
   auto admitted = admit_polygon(region, max_vertices);
-  if (admitted) {
+  if (admitted && is_noded(*admitted)) {
     accept(*std::move(admitted));
     return out;
   }
+  if (admitted) admitted = fail(FailureCode::kNotSimple, "comes within a grid step of itself");
   const FailureCode code = admitted.error().code;
   if (code == FailureCode::kNotSimple || code == FailureCode::kBadHole) {
     const GeosShape shape = geos.from(region);

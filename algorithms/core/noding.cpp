@@ -325,4 +325,11 @@ PlanarGraph node_segments(std::span<const Segment> input) {
   return build_graph(segments);
 }
 
+bool is_noded(const Polygon& polygon) {
+  std::vector<Segment> edges;
+  for_each_edge(polygon, [&](const Segment& s) { edges.push_back(s); });
+  const PlanarGraph graph = node_segments(edges);
+  return graph.edges.size() == edges.size() && graph.overlaps.empty();
+}
+
 }  // namespace plat

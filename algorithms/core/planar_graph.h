@@ -42,6 +42,11 @@ struct PlanarGraph {
 /// crossings of segments of similar length.
 PlanarGraph node_segments(std::span<const Segment> segments);
 
+/// Whether noding the polygon's edges leaves them as they are: no vertex comes within half a grid
+/// step of an edge that is not its own, so that the polygon stays itself when cuts are noded with
+/// it. Pre: admitted (validity.h).
+bool is_noded(const Polygon& polygon);
+
 /// Half-edge 2e runs from edges[e].from to .to, 2e+1 back.
 using HalfEdge = std::uint32_t;
 constexpr HalfEdge twin(HalfEdge h) { return h ^ 1U; }

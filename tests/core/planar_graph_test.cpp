@@ -91,6 +91,13 @@ TEST(NodeSegments, OrderOfInputDoesNotMatter) {
   EXPECT_EQ(forward.edges.size(), backward.edges.size());
 }
 
+TEST(IsNoded, SpikeNarrowerThanAGridStepIsNot) {
+  const double step = kGridStep_m;
+  EXPECT_TRUE(is_noded({{{0, 0}, {50, 0}, {50, 40}, {0, 40}}, {}}));
+  // The last vertices run back along the side at half a step's distance.
+  EXPECT_FALSE(is_noded({{{0, 0}, {50, 0}, {50, 40}, {20, 40 + step}, {48, 40 + step}, {0, 41}}, {}}));
+}
+
 TEST(FindFaces, GridOfSquares) {
   std::vector<Segment> lines;
   for (int i = 0; i <= 4; ++i) {
