@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/working_grid.h"
 #include "parcels/lot.h"
 #include "parcels/partition.h"
 
@@ -15,6 +16,9 @@ namespace {
 constexpr int kMaxDepth = 48;
 /// Cells below this are leftovers of rounding, not lots.
 constexpr double kSliver_m2 = 0.5;
+/// How far a cut goes on beyond its ends: these lie on edges of lots, whose own ends were rounded
+/// again and again, so that they may stop short of the cut or contour edge they were meant for.
+constexpr double kProlongation_m = 8.0 * kGridStep_m;
 /// How near the ends of the box's longer side a split may come, as a share of that side.
 constexpr double kEndMargin = 0.1;
 
@@ -49,14 +53,25 @@ class Recursion {
       if (along.lots.size() < 2 || !all_have_access(along)) return;
       across = std::move(along);
     }
-    cuts_.insert(cuts_.end(), across.cuts.begin(), across.cuts.end());
+    for (const Segment& cut : across.cuts) add_cut(cut);
     lots_ += across.lots.size() - 1;
     std::uint64_t child = 0;
     for (const Lot& part : across.lots) divide(part, derive_seed(seed, {child++}), depth + 1);
   }
 
  private:
-  [[nodiscard]] static bool has_access(const Lot& lot) { return frontage_m(lot) >= kMinFrontage_m; }
+  /// The prolongations are segments of their own: the cut must go through its ends. What is left
+  /// over of them separates nothing.
+  void add_cut(const Segment& cut) {
+    const Point beyond = kProlongation_m * normalized(cut.b - cut.a);
+    cuts_.push_back(cut);
+    cuts_.push_back({cut.a, cut.a - beyond});
+    cuts_.push_back({cut.b, cut.b + beyond});
+  }
+
+  [[nodiscard]] static bool has_access(const Lot& lot) {
+    return frontage_m(lot) >= kStreetAccess_m;
+  }
   [[nodiscard]] static bool all_have_access(const SplitResult& split) {
     return std::all_of(split.lots.begin(), split.lots.end(), has_access);
   }

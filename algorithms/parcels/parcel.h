@@ -5,8 +5,8 @@
 
 namespace plat::parcels {
 
-/// The least length along a street that counts as street access, metres: narrower than any gate.
-inline constexpr double kMinFrontage_m = 1.0;
+/// The least length along a street that counts as street access, metres: a person gets through.
+inline constexpr double kStreetAccess_m = 1.0;
 
 /// A parcel of a block. Parcels of one block form a coverage (coverage.h): no gap, no overlap, and
 /// the same vertices on both sides of every common boundary.

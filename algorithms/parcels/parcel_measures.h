@@ -7,6 +7,7 @@
 
 #include "blocks/block.h"
 #include "core/polygon.h"
+#include "parcels/parcel.h"
 
 namespace plat::parcels {
 
@@ -35,8 +36,6 @@ inline constexpr double kSharedLength_m = 0.5;
 /// An edge fronts a street that is as near as this to the block's contour: contours made from
 /// parcels are closed by 0.6 m and simplified by 0.1 m.
 inline constexpr double kFrontageGap_m = 0.75;
-/// Least frontage that counts as street access: a person gets through.
-inline constexpr double kStreetAccess_m = 1.0;
 /// As momepy's Corners.
 inline constexpr double kCornerTurn_deg = 10.0;
 

@@ -112,7 +112,7 @@ Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block&
       0.5 * (options_.area_min_m2 + std::min(options_.area_max_m2, kUndivided_m2));
   join_while(*partition, [&](std::uint32_t region) {
     const double area = partition->area_m2(region);
-    return partition->frontage_m(region) < kMinFrontage_m || area < options_.area_min_m2 ||
+    return partition->frontage_m(region) < kStreetAccess_m || area < options_.area_min_m2 ||
            (area < triangle_max_m2 && is_triangular(partition->polygon(region)));
   });
   return partition->parcels();
