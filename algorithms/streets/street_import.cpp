@@ -110,7 +110,7 @@ class StreetReader {
       : options_(fields),
         name_(layer, fields.name, {"name", "Street"}),
         class_(layer, fields.street_class, {"highway", "class"}),
-        width_(layer, fields.width, {"width"}),
+        width_(layer, fields.width, {"width", "width_m"}),
         lanes_(layer, fields.lanes, {"lanes"}),
         level_(layer, fields.level, {"layer"}),
         structure_(layer, fields.structure, {"structure"}),
