@@ -86,9 +86,9 @@ Side locate(std::span<const Point> ring, Point p) {
       const double o = a.y < b.y ? orientation(a, b, p) : orientation(b, a, p);
       if (o == 0.0) return Side::kBoundary;
       if (o > 0.0) is_inside = !is_inside;
-    } else if (a.y == p.y && b.y == p.y && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) {
-      return Side::kBoundary;
-    } else if (a == p || b == p) {
+    } else if (a == p || b == p ||
+               (a.y == p.y && b.y == p.y && std::min(a.x, b.x) <= p.x &&
+                p.x <= std::max(a.x, b.x))) {
       return Side::kBoundary;
     }
   }
