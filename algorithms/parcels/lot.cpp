@@ -36,6 +36,35 @@ void tidy(std::vector<LotVertex>& ring) {
   if (ring.size() < 3) ring.clear();
 }
 
+/// The loops of a ring that visits places twice, as where the line went through a corner of a hole;
+/// the ring itself where it does not.
+std::vector<std::vector<LotVertex>> loops_of(std::vector<LotVertex> ring) {
+  Ring sorted = positions(ring);
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return {std::move(ring)};
+  std::vector<std::vector<LotVertex>> loops;
+  std::vector<LotVertex> open;
+  for (const LotVertex& v : ring) {
+    const auto same = std::find_if(open.begin(), open.end(), [&](const LotVertex& earlier) {
+      return earlier.position == v.position;
+    });
+    if (same != open.end()) {
+      loops.emplace_back(same, open.end());
+      open.erase(same, open.end());
+    }
+    open.push_back(v);
+  }
+  loops.push_back(std::move(open));
+  return loops;
+}
+
+bool is_inside(const std::vector<LotVertex>& ring, const std::vector<LotVertex>& container) {
+  const Ring outer = positions(container);
+  return std::any_of(ring.begin(), ring.end(), [&](const LotVertex& v) {
+    return locate(std::span<const Point>(outer), v.position) == Side::kInside;
+  });
+}
+
 class Splitter {
  public:
   Splitter(const Lot& lot, const SplitLine& line)
@@ -63,20 +92,40 @@ class Splitter {
  private:
   [[nodiscard]] double height(Point p) const { return dot(p - line_.pivot, normal_); }
 
+  [[nodiscard]] std::vector<double> heights_of(const std::vector<LotVertex>& ring) const {
+    std::vector<double> heights;
+    heights.reserve(ring.size());
+    for (const LotVertex& v : ring) heights.push_back(height(v.position));
+    return heights;
+  }
+
+  /// A vertex on the line counts as left of it, but for one that touches the line from the left: so
+  /// a touch from either side is two crossings, and land that meets in a point is seen to.
+  [[nodiscard]] static std::vector<bool> sides_of(const std::vector<double>& heights) {
+    const std::size_t n = heights.size();
+    std::vector<bool> is_left(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double before = heights[i == 0 ? n - 1 : i - 1];
+      const double after = heights[i + 1 == n ? 0 : i + 1];
+      is_left[i] = heights[i] > 0.0 || (heights[i] == 0.0 && (before <= 0.0 || after <= 0.0));
+    }
+    return is_left;
+  }
+
   void find_crossings() {
     for (std::uint32_t r = 0; r < lot_.rings.size(); ++r) {
       const auto& ring = lot_.rings[r];
       std::vector<std::uint32_t>& of_ring = by_ring_.emplace_back();
-      double from = height(ring.front().position);
+      const std::vector<double> heights = heights_of(ring);
+      const std::vector<bool> is_left = sides_of(heights);
       for (std::uint32_t i = 0; i < ring.size(); ++i) {
-        const Point next = ring[i + 1 == ring.size() ? 0 : i + 1].position;
-        const double to = height(next);
-        if ((from >= 0.0) != (to >= 0.0)) {
-          const Point at = lerp(ring[i].position, next, from / (from - to));
-          of_ring.push_back(static_cast<std::uint32_t>(crossings_.size()));
-          crossings_.push_back({dot(at - line_.pivot, line_.direction), snap(at), r, i, to >= 0.0});
-        }
-        from = to;
+        const std::uint32_t next = i + 1 == ring.size() ? 0 : i + 1;
+        if (is_left[i] == is_left[next]) continue;
+        const Point at =
+            lerp(ring[i].position, ring[next].position, heights[i] / (heights[i] - heights[next]));
+        of_ring.push_back(static_cast<std::uint32_t>(crossings_.size()));
+        crossings_.push_back(
+            {dot(at - line_.pivot, line_.direction), snap(at), r, i, is_left[next]});
       }
     }
     // Sort along the line, keeping track of where each ring's crossings went.
@@ -92,9 +141,28 @@ class Splitter {
       sorted.push_back(crossings_[i]);
     }
     crossings_ = std::move(sorted);
+    alternate(place);
     for (auto& ring : by_ring_) {
       for (std::uint32_t& c : ring) c = place[c];
     }
+  }
+
+  /// Where the line goes through a vertex, two crossings coincide but for rounding: along the line,
+  /// the region is entered (an edge goes right) and left (an edge goes left) in turn.
+  void alternate(std::vector<std::uint32_t>& place) {
+    std::vector<std::uint32_t> at(place.size());
+    for (std::uint32_t i = 0; i < place.size(); ++i) at[place[i]] = i;
+    for (std::size_t i = 0; i + 1 < crossings_.size(); ++i) {
+      const bool must_go_left = i % 2 == 1;
+      for (std::size_t k = i; k < crossings_.size(); ++k) {
+        if (crossings_[k].along - crossings_[i].along > kGridStep_m) break;
+        if (crossings_[k].goes_left != must_go_left) continue;
+        std::swap(crossings_[i], crossings_[k]);
+        std::swap(at[i], at[k]);
+        break;
+      }
+    }
+    for (std::uint32_t c = 0; c < at.size(); ++c) place[at[c]] = c;
   }
 
   /// Crossings 2k and 2k + 1 bound a part of the line inside the lot: one goes left, the other
@@ -129,8 +197,26 @@ class Splitter {
         c = leave ^ 1U;
       }
       tidy(ring);
-      if (ring.empty() || signed_area_m2(positions(ring)) <= 0.0) continue;
-      lots.push_back({{std::move(ring)}});
+      add_lots(loops_of(std::move(ring)), lots);
+    }
+  }
+
+  /// Counter-clockwise loops are lots of their own: land that only meets in a point is not one lot.
+  /// Clockwise ones are holes that touch the outer ring.
+  static void add_lots(std::vector<std::vector<LotVertex>> loops, std::vector<Lot>& lots) {
+    const std::size_t first = lots.size();
+    std::vector<std::vector<LotVertex>> holes;
+    for (auto& loop : loops) {
+      const double area = signed_area_m2(positions(loop));
+      if (area > 0.0) lots.push_back({{std::move(loop)}});
+      if (area < 0.0) holes.push_back(std::move(loop));
+    }
+    for (auto& hole : holes) {
+      for (std::size_t i = first; i < lots.size(); ++i) {
+        if (!is_inside(hole, lots[i].rings.front())) continue;
+        lots[i].rings.push_back(std::move(hole));
+        break;
+      }
     }
   }
 
@@ -138,8 +224,7 @@ class Splitter {
     for (std::size_t r = 1; r < lot_.rings.size(); ++r) {
       if (!by_ring_[r].empty()) continue;
       for (Lot& lot : lots) {
-        if (locate(positions(lot.rings.front()), lot_.rings[r].front().position) != Side::kInside)
-          continue;
+        if (!is_inside(lot_.rings[r], lot.rings.front())) continue;
         lot.rings.push_back(lot_.rings[r]);
         break;
       }

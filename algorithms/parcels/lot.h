@@ -48,9 +48,10 @@ struct SplitResult {
 };
 
 /// Cuts a lot along a line. Vertices on the line count as left of it, which makes every crossing a
-/// proper one. The lots guide the recursion only; the parcels themselves come from BlockPartition
-/// over the cuts, so that a rounding of the ends cannot open a gap. Complexity: O(n + c log c) for
-/// c crossings.
+/// proper one; one that touches the line from the left counts as right. Lots that only meet in a
+/// point are two. The lots guide the recursion only; the parcels themselves come from
+/// BlockPartition over the cuts, so that a rounding of the ends cannot open a gap. Complexity: O(n
+/// log n + c log c) for c crossings.
 SplitResult split(const Lot& lot, const SplitLine& line);
 
 }  // namespace plat::parcels

@@ -89,6 +89,27 @@ TEST(SplitLot, BesideAHoleKeepsItOnItsSide) {
   EXPECT_EQ(area_m2(result.lots[1]), 750.0 - 100.0);
 }
 
+TEST(SplitLot, ThroughACornerOfAHoleKeepsItAsAHoleThatTouches) {
+  const Polygon contour{{{0, 0}, {30, 0}, {30, 30}, {0, 30}}, {{{10, 15}, {20, 20}, {20, 10}}}};
+  const SplitResult result = split(lot_of(contour), vertical(10));
+  ASSERT_EQ(result.lots.size(), 2U);
+  EXPECT_EQ(area_m2(result.lots[0]), 300.0);
+  EXPECT_EQ(area_m2(result.lots[1]), 600.0 - 50.0);
+  EXPECT_EQ(result.lots[1].rings.size(), 2U);
+}
+
+TEST(SplitLot, LandThatOnlyMeetsInAPointIsNotOneLot) {
+  const Polygon contour{{{0, 0}, {30, 0}, {30, 30}, {0, 30}}, {{{10, 15}, {20, 20}, {20, 10}}}};
+  for (const Point up : {Point{0, 1}, Point{0, -1}}) {  // the hole on either side of the line
+    const SplitResult first = split(lot_of(contour), {{10, 0}, up});
+    ASSERT_EQ(first.lots.size(), 2U);
+    const Lot& around = first.lots[area_m2(first.lots[0]) == 550.0 ? 0 : 1];
+    const SplitResult second = split(around, {{15, 0}, up});
+    EXPECT_EQ(second.lots.size(), 3U) << "above the touching corner, below it, and the rest";
+    EXPECT_EQ(total_area_m2(second), 550.0);
+  }
+}
+
 TEST(SplitLot, LabelsFollowTheirEdges) {
   const Lot lot = parcels::lot_of(testing::with_streets_on(testing::rectangle_block(30, 20), {0}));
   EXPECT_EQ(frontage_m(lot), 30.0);
@@ -108,6 +129,28 @@ TEST(SplitLot, CutItselfFrontsNoStreet) {
   double sum = 0.0;
   for (const Lot& lot : result.lots) sum += frontage_m(lot);
   EXPECT_EQ(sum, 120.0);
+}
+
+TEST(SplitLot, ThroughAReflexVertexOfARandomBlockCutsIt) {
+  // Two crossings coincide there but for rounding, and must be taken in the right order.
+  Rng rng = testing::property_rng("SplitLot.Vertex");
+  int reflex = 0;
+  for (const Polygon& polygon : testing::synthetic_blocks(rng, testing::iterations(300))) {
+    const Ring& ring = polygon.outer;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point before = ring[(i + ring.size() - 1) % ring.size()];
+      const Point after = ring[(i + 1) % ring.size()];
+      if (orientation(before, ring[i], after) > 0.0) continue;
+      // Both neighbours lie on the same side of the bisector's normal.
+      const Point bisector = normalized(normalized(before - ring[i]) + normalized(after - ring[i]));
+      const SplitResult result = split(lot_of(polygon), {ring[i], perpendicular(bisector)});
+      ASSERT_GE(result.lots.size(), 2U);
+      ASSERT_NEAR(total_area_m2(result), area_m2(polygon),
+                  4.0 * kGridStep_m * perimeter_m(polygon));
+      ++reflex;
+    }
+  }
+  EXPECT_GT(reflex, testing::iterations(300));
 }
 
 TEST(SplitLot, AreasAndFrontageAddUpOnRandomBlocks) {
