@@ -1,0 +1,149 @@
+#include "parcels/skeleton_subdivider.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "parcels/made_blocks.h"
+#include "support/property.h"
+#include "support/synthetic_blocks.h"
+
+namespace plat::parcels {
+namespace {
+
+using testing::rectangle_block;
+using Options = SkeletonSubdivider::Options;
+
+std::vector<Parcel> divide(const Options& options, const blocks::Block& block,
+                           std::uint64_t seed = 1) {
+  Rng rng(seed);
+  return SkeletonSubdivider(options).subdivide(block, rng).value();
+}
+
+TEST(SkeletonSubdivider, EveryParcelHasStreetAccess) {
+  Rng rng = testing::property_rng("Skeleton.Access");
+  int parcels_seen = 0;
+  for (Polygon& polygon : testing::synthetic_blocks(rng, testing::iterations(150))) {
+    blocks::Block block = blocks::block_from_contour(BlockId{}, std::move(polygon));
+    if (rng.index(2) == 0) block = testing::with_streets_on(std::move(block), {0, 2});
+    for (const Parcel& parcel : divide({}, block, rng())) {
+      ASSERT_GE(testing::frontage_by_distance_m(block, parcel.shape), kStreetAccess_m - 0.05);
+      ++parcels_seen;
+    }
+  }
+  EXPECT_GT(parcels_seen, testing::iterations(150) * 4);
+}
+
+TEST(SkeletonSubdivider, NoParcelIsBelowTheLeastArea) {
+  Rng rng = testing::property_rng("Skeleton.Small");
+  for (Polygon& polygon : testing::synthetic_blocks(rng, testing::iterations(100))) {
+    const blocks::Block block = blocks::block_from_contour(BlockId{}, std::move(polygon));
+    const auto parcels = divide({}, block, rng());
+    for (const Parcel& parcel : parcels) {
+      if (parcels.size() == 1) continue;
+      ASSERT_GE(area_m2(parcel.shape), 149.9);
+    }
+  }
+}
+
+TEST(SkeletonSubdivider, NoSmallParcelIsATriangle) {
+  Rng rng = testing::property_rng("Skeleton.Triangles");
+  int parcels_seen = 0;
+  for (Polygon& polygon : testing::synthetic_blocks(rng, testing::iterations(100))) {
+    const blocks::Block block = blocks::block_from_contour(BlockId{}, std::move(polygon));
+    const auto parcels = divide({}, block, rng());
+    for (const Parcel& parcel : parcels) {
+      ++parcels_seen;
+      if (parcels.size() == 1 || parcel.shape.outer.size() > 3) continue;
+      EXPECT_GE(area_m2(parcel.shape), 0.5 * (150.0 + 900.0) - 0.5);
+    }
+  }
+  EXPECT_GT(parcels_seen, testing::iterations(100) * 5);
+}
+
+TEST(SkeletonSubdivider, RectangleGivesQuadsOnly) {
+  for (const auto corners : {CornerScheme::kStreetWidth, CornerScheme::kStreetLength}) {
+    const auto parcels =
+        divide({.irregularity = 0.0, .corners = corners}, rectangle_block(120, 50));
+    ASSERT_EQ(parcels.size(), 16U) << "two rows of 120 / 15";
+    for (const Parcel& parcel : parcels) {
+      const OrientedBox box = minimum_area_box(parcel.shape);
+      EXPECT_NEAR(area_m2(parcel.shape), box.area_m2(), 0.1);
+      EXPECT_NEAR(area_m2(parcel.shape), 375.0, 0.5);
+    }
+  }
+}
+
+TEST(SkeletonSubdivider, WithoutStreetLabelsEveryOuterEdgeCounts) {
+  const blocks::Block block = rectangle_block(120, 50);
+  const auto labelled = divide({}, block);
+  const auto bare = divide({}, testing::with_streets_on(block, {}));
+  EXPECT_EQ(labelled, bare);
+}
+
+TEST(SkeletonSubdivider, StreetOnOneSideGivesLotsThroughTheBlock) {
+  const auto block = testing::with_streets_on(rectangle_block(120, 50), {0});
+  const auto parcels = divide({.irregularity = 0.0}, block);
+  ASSERT_EQ(parcels.size(), 8U);
+  for (const Parcel& parcel : parcels) EXPECT_NEAR(area_m2(parcel.shape), 750.0, 0.5);
+}
+
+TEST(SkeletonSubdivider, BlockOfThousandsOfVerticesIsSimplifiedAndDivided) {
+  Ring ring;
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * i / 3000.0;
+    const double radius = 100.0 + 0.3 * std::sin(40.0 * angle);
+    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  const auto admitted = admit_polygon({ring, {}}, 10'000);
+  ASSERT_TRUE(admitted);
+  EXPECT_GT(divide({}, blocks::block_from_contour(BlockId{}, *admitted)).size(), 10U);
+}
+
+TEST(SkeletonSubdivider, TwinsHaveEquallyManyParcelsOfEqualAreas) {
+  const Polygon shapes[] = {rectangle_block(170, 45).contour,
+                            {{{0, 0}, {120, 0}, {120, 40}, {50, 40}, {50, 90}, {0, 90}}, {}},
+                            {{{0, 0}, {120, 0}, {140, 60}, {-10, 50}}, {}}};
+  const Options options{.irregularity = 0.0};
+  for (const Polygon& shape : shapes) {
+    const auto areas =
+        testing::sorted_areas(divide(options, blocks::block_from_contour({}, shape)));
+    EXPECT_GT(areas.size(), 4U);
+    for (const auto twin : {testing::Twin::kTranslated, testing::Twin::kTurnedBy90,
+                            testing::Twin::kMirrored, testing::Twin::kRotatedStart}) {
+      const auto twins = testing::sorted_areas(
+          divide(options, blocks::block_from_contour({}, testing::twin_of(shape, twin))));
+      ASSERT_EQ(twins.size(), areas.size()) << "twin " << static_cast<int>(twin);
+      for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(twins[i], areas[i], 2.0);
+    }
+  }
+}
+
+TEST(ParcelStyle, HasMeansAndSampleDeviations) {
+  const Polygon a{{{0, 0}, {10, 0}, {10, 20}, {0, 20}}, {}};
+  const Polygon b{{{0, 0}, {20, 0}, {20, 30}, {0, 30}}, {}};
+  const ParcelStyle style = style_of(std::vector<Polygon>{a, b});
+  EXPECT_EQ(style.count, 2U);
+  EXPECT_DOUBLE_EQ(style.area_mean_m2, 400.0);
+  EXPECT_DOUBLE_EQ(style.area_deviation_m2, 200.0 * std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(style.width_mean_m, 15.0);
+  EXPECT_DOUBLE_EQ(style.width_deviation_m, 5.0 * std::sqrt(2.0));
+  EXPECT_EQ(style_of(std::vector<Polygon>{a}).area_deviation_m2, 0.0);
+  EXPECT_EQ(style_of({}).count, 0U);
+}
+
+TEST(BoundsAround, AreTheMeanPlusMinusKDeviations) {
+  const Bounds bounds = bounds_around(500.0, 100.0, 2.0, 1.0);
+  EXPECT_EQ(bounds.low, 300.0);
+  EXPECT_EQ(bounds.high, 700.0);
+}
+
+TEST(BoundsAround, KeepTheFloorAndATenthOfTheMean) {
+  EXPECT_EQ(bounds_around(100.0, 100.0, 2.0, 1.0).low, 1.0);
+  EXPECT_DOUBLE_EQ(bounds_around(100.0, 0.0, 2.0, 1.0).high, 110.0);
+  const Bounds degenerate = bounds_around(0.0, 0.0, 2.0, 1.0);
+  EXPECT_LE(degenerate.low, degenerate.high);
+}
+
+}  // namespace
+}  // namespace plat::parcels
