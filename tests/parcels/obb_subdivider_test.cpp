@@ -79,20 +79,27 @@ TEST(ObbSubdivider, WithStreetAccessZeroSomeParcelsHaveNone) {
 }
 
 TEST(ObbSubdivider, EditAtOneEndLeavesTheParcelsOfTheOtherEnd) {
-  const auto left_parcels = [](const blocks::Block& block) {
+  const auto parcels_between = [](const blocks::Block& block, double from, double to) {
     std::vector<Ring> out;
     for (const Parcel& parcel : divide({.snap_m = 0.0}, block)) {
-      if (box_of(parcel.shape).max.x < 100.0) out.push_back(parcel.shape.outer);
+      const Box box = box_of(parcel.shape);
+      if (box.min.x >= from && box.max.x <= to) out.push_back(parcel.shape.outer);
     }
     return out;
   };
-  // The same 400 x 40 m block, with a corner cut off at the far end: the box stays the same.
+  // A 400 x 40 m block, and the same with a notch near one end or the other: the box stays.
   const blocks::Block whole = rectangle_block(400, 40);
-  const blocks::Block edited = blocks::block_from_contour(
-      BlockId{}, {{{0, 0}, {400, 0}, {400, 32}, {385, 40}, {0, 40}}, {}});
-  const auto before = left_parcels(whole);
-  EXPECT_GT(before.size(), 4U);
-  EXPECT_EQ(before, left_parcels(edited));
+  const blocks::Block right_end = blocks::block_from_contour(
+      BlockId{}, {{{0, 0}, {400, 0}, {400, 40}, {395, 40}, {390, 15}, {385, 40}, {0, 40}}, {}});
+  const blocks::Block left_end = blocks::block_from_contour(
+      BlockId{}, {{{0, 0}, {400, 0}, {400, 40}, {15, 40}, {10, 15}, {5, 40}, {0, 40}}, {}});
+  const auto left = parcels_between(whole, 0.0, 150.0);
+  const auto right = parcels_between(whole, 250.0, 400.0);
+  EXPECT_GT(left.size(), 4U);
+  EXPECT_GT(right.size(), 4U);
+  EXPECT_EQ(left, parcels_between(right_end, 0.0, 150.0));
+  EXPECT_EQ(right, parcels_between(left_end, 250.0, 400.0));
+  EXPECT_NE(left, parcels_between(left_end, 0.0, 150.0)) << "the edit must change something";
 }
 
 TEST(ObbSubdivider, SplitGoesThroughANearVertex) {
