@@ -94,8 +94,10 @@ TEST(NodeSegments, OrderOfInputDoesNotMatter) {
 TEST(IsNoded, SpikeNarrowerThanAGridStepIsNot) {
   const double step = kGridStep_m;
   EXPECT_TRUE(is_noded({{{0, 0}, {50, 0}, {50, 40}, {0, 40}}, {}}));
-  // The last vertices run back along the side at half a step's distance.
-  EXPECT_FALSE(is_noded({{{0, 0}, {50, 0}, {50, 40}, {20, 40 + step}, {48, 40 + step}, {0, 41}}, {}}));
+  // The vertex (22, 40 + step) lies a fifteenth of a step off the edge that ends at (20, 40 +
+  // step).
+  EXPECT_FALSE(
+      is_noded({{{0, 0}, {50, 0}, {50, 40}, {20, 40 + step}, {22, 40 + step}, {0, 41}}, {}}));
 }
 
 TEST(FindFaces, GridOfSquares) {
