@@ -21,7 +21,7 @@ struct ContourEdge {
 
 /// More lots than this in one block are an option out of all proportion to the block's size: a
 /// failure, before they fill the memory.
-inline constexpr std::size_t kMaxLotsPerBlock = 50'000;
+inline constexpr std::size_t kMaxLotsPerBlock = 10'000;
 
 /// A block cut into cells, and cells joined into regions: the one way in which strategies and
 /// tessellations make parcels. A strategy only says where to cut and what to join; that the parcels

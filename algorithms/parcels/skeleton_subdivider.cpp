@@ -21,6 +21,9 @@ constexpr double kCornerTurn_rad = 0.175;  // 10 degrees
 /// worse.
 constexpr std::size_t kComfortableVertices = 300;
 constexpr double kCoarsest_m = 4.0;
+/// Slices of two streets may cross behind a side without a street, as a lattice. A slice crosses at
+/// most one other per spacing; more crossings than this would take minutes and gigabytes.
+constexpr double kMaxCrossings = 200'000.0;
 
 int corner_count(const Ring& ring) {
   int corners = 0;
@@ -83,6 +86,13 @@ Expected<StripLayout> lay_out(const blocks::Block& block, double simplify_m, Cor
   }
 }
 
+tl::unexpected<Failure> lots_too_narrow(double front_m, double spacing_m) {
+  return fail(FailureCode::kNoConvergence,
+              fmt::format("lots {:g} m wide are too many along {:.0f} m of streets: raise "
+                          "width_min_m or width_max_m",
+                          spacing_m, front_m));
+}
+
 }  // namespace
 
 Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block& given,
@@ -96,13 +106,12 @@ Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block&
   const double spacing_m = std::max(0.5, 0.5 * (options_.width_min_m + options_.width_max_m));
   double front_m = 0.0;
   for (const Strip& strip : layout->strips) front_m += front_length_m(*layout, strip);
-  if (front_m / spacing_m > static_cast<double>(kMaxLotsPerBlock)) {
-    return fail(FailureCode::kNoConvergence,
-                fmt::format("{:.0f} m of streets make more than {} lots {:g} m wide: raise "
-                            "width_min_m or width_max_m",
-                            front_m, kMaxLotsPerBlock, spacing_m));
-  }
+  if (front_m / spacing_m > static_cast<double>(kMaxLotsPerBlock))
+    return lots_too_narrow(front_m, spacing_m);
   std::vector<Segment> cuts = slice_strips(*layout, {spacing_m, options_.irregularity}, rng);
+  double cut_m = 0.0;
+  for (const Segment& cut : cuts) cut_m += length(cut);
+  if (cut_m / spacing_m > kMaxCrossings) return lots_too_narrow(front_m, spacing_m);
   cuts.insert(cuts.end(), layout->walls.begin(), layout->walls.end());
   auto partition = BlockPartition::cut(block, cuts);
   if (!partition) return tl::unexpected<Failure>(partition.error());

@@ -60,6 +60,8 @@ class Slicer {
  public:
   explicit Slicer(const StripLayout& layout) : layout_(layout) {
     find_ways_to_walls();
+    hits_.resize(layout.skeleton.arcs.size());
+    is_passed_.resize(layout.skeleton.arcs.size(), false);
     const auto& nodes = layout.skeleton.nodes;
     for (std::uint32_t k = 0; k < layout.skeleton.arcs.size(); ++k) {
       const auto& arc = layout.skeleton.arcs[k];
@@ -74,7 +76,7 @@ class Slicer {
     reach_m_ = box_of(layout.contour).width() + box_of(layout.contour).height();
   }
 
-  void slice(const Front& front, std::vector<Segment>& cuts) const {
+  void slice(const Front& front, std::vector<Segment>& cuts) {
     const Segment edge = contour_segment(layout_, front.edge);
     const Point inward = perpendicular(normalized(edge.b - edge.a));
     const Segment ray{front.point, front.point + reach_m_ * inward};
@@ -91,7 +93,24 @@ class Slicer {
     const Point hit = lerp(ray.a, ray.b, nearest);
     const double beyond_m = met.is_contour ? layout_.slack_m : 0.0;
     cuts.push_back({snap(front.point - layout_.slack_m * inward), snap(hit + beyond_m * inward)});
-    if (met.guide != kNone) follow(met.guide, hit, cuts);
+    if (met.guide != kNone) follow(met.guide, hit);
+  }
+
+  /// The guides that slices follow, each once, from slice to slice: hundreds of slices may share
+  /// one, and cuts on top of each other cost noding the square of their number.
+  void add_guides(std::vector<Segment>& cuts) const {
+    for (std::size_t k = 0; k < hits_.size(); ++k) {
+      if (hits_[k].empty() && !is_passed_[k]) continue;
+      const Point lower = layout_.skeleton.nodes[layout_.skeleton.arcs[k].lower].position;
+      const Point upper = layout_.skeleton.nodes[layout_.skeleton.arcs[k].upper].position;
+      std::vector<std::pair<double, Point>> stops;
+      for (const Point hit : hits_[k]) stops.emplace_back(dot(hit - lower, upper - lower), hit);
+      std::sort(stops.begin(), stops.end());
+      if (is_passed_[k]) cuts.push_back({lower, stops.empty() ? upper : stops.front().second});
+      for (std::size_t i = 0; i < stops.size(); ++i) {
+        cuts.push_back({stops[i].second, i + 1 < stops.size() ? stops[i + 1].second : upper});
+      }
+    }
   }
 
  private:
@@ -158,22 +177,22 @@ class Slicer {
     }
   }
 
-  /// Along the arc and those after it, away from the street, to the strip's boundary.
-  void follow(std::uint32_t guide, Point from, std::vector<Segment>& cuts) const {
+  /// Marks the way along the arc and those after it, away from the street, to the strip's boundary.
+  void follow(std::uint32_t guide, Point from) {
+    hits_[guide].push_back(snap(from));
     std::uint32_t node = layout_.skeleton.arcs[guide].upper;
-    for (;;) {
-      const Point to = layout_.skeleton.nodes[node].position;
-      cuts.push_back({snap(from), snap(to)});
-      if (layout_.is_wall_node[node]) return;
-      const auto& arc = layout_.skeleton.arcs[way_[node]];  // ways get shorter: this ends
+    while (!layout_.is_wall_node[node] && !is_passed_[way_[node]]) {  // ways get shorter: this ends
+      is_passed_[way_[node]] = true;
+      const auto& arc = layout_.skeleton.arcs[way_[node]];
       node = arc.lower == node ? arc.upper : arc.lower;
-      from = to;
     }
   }
 
   const StripLayout& layout_;
   std::vector<Obstacle> obstacles_;
-  std::vector<std::uint32_t> way_;  ///< per node: the guide on which to go on to a wall
+  std::vector<std::uint32_t> way_;        ///< per node: the guide on which to go on to a wall
+  std::vector<std::vector<Point>> hits_;  ///< per arc: where slices meet it and turn into it
+  std::vector<bool> is_passed_;           ///< per arc: a slice follows it from end to end
   double reach_m_ = 0.0;
 };
 
@@ -181,7 +200,7 @@ class Slicer {
 
 std::vector<Segment> slice_strips(const StripLayout& layout, const SliceSpacing& spacing,
                                   Rng& rng) {
-  const Slicer slicer(layout);
+  Slicer slicer(layout);
   std::vector<Segment> cuts;
   for (const Strip& strip : layout.strips) {
     const double from = strip.trimmed_start_m;
@@ -191,6 +210,7 @@ std::vector<Segment> slice_strips(const StripLayout& layout, const SliceSpacing&
       slicer.slice(point_on_front(layout, strip, s), cuts);
     }
   }
+  slicer.add_guides(cuts);
   return cuts;
 }
 

@@ -1,5 +1,7 @@
 #include "parcels/voronoi_subdivider.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -92,7 +94,7 @@ std::vector<Point> place_sites(const VoronoiSubdivider::Options& options,
   const double wanted = std::max(1.0, std::round(area_m2(block.contour) / options.area_mean_m2));
   const int rows = choose_rows(options, box, wanted);
   // An odd number in two rows: the row on the left of the axis gets the extra parcel.
-  const int total = static_cast<int>(std::min(wanted, 20000.0));
+  const int total = static_cast<int>(wanted);
   const int left = rows == 1 ? total : (total + 1) / 2;
   // A row's parcels have equal depth, so areas spread as the spacing does.
   const double relative = options.area_deviation_m2 / options.area_mean_m2;
@@ -139,6 +141,10 @@ void join_cells_without_site(BlockPartition& partition, const std::vector<Point>
 
 Expected<std::vector<Parcel>> VoronoiSubdivider::subdivide(const blocks::Block& block,
                                                            Rng& rng) const {
+  if (area_m2(block.contour) / options_.area_mean_m2 > static_cast<double>(kMaxLotsPerBlock)) {
+    return fail(FailureCode::kNoConvergence,
+                fmt::format("more than {} parcels: raise area_mean_m2", kMaxLotsPerBlock));
+  }
   const std::vector<Point> sites = place_sites(options_, block, rng);
   std::vector<Segment> cuts;
   if (sites.size() > 1) {

@@ -1,0 +1,71 @@
+// Each test is a defect that was found and fixed, named after it.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "blocks/block.h"
+#include "parcels/block_subdivider.h"
+#include "parcels/coverage.h"
+
+namespace plat::parcels {
+namespace {
+
+blocks::Block rectangle(double width_m, double height_m) {
+  return blocks::block_from_contour(
+      {0}, {{{0, 0}, {width_m, 0}, {width_m, height_m}, {0, height_m}}, {}});
+}
+
+Expected<std::vector<Parcel>> divide(const char* strategy, const OptionMap& options,
+                                     const blocks::Block& block) {
+  Rng rng(1);
+  return block_subdividers().make(strategy, options).subdivide(block, rng);
+}
+
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(Regression, LotsFarTooSmallForTheBlockAreAFailureNotAFullMemory) {
+  const blocks::Block district = rectangle(12000, 9000);
+  const std::map<std::string, OptionMap> smallest{
+      {"obb", {{"area_max_m2", 1.0}, {"width_max_m", 0.5}, {"street_access", 0.0}}},
+      {"skeleton", {{"width_min_m", 0.0}, {"width_max_m", 0.5}}},
+      {"voronoi", {{"area_mean_m2", 1.0}}}};
+  for (const auto& [name, options] : smallest) {
+    const auto found = divide(name.c_str(), options, district);
+    ASSERT_FALSE(found) << name;
+    EXPECT_EQ(found.error().code, FailureCode::kNoConvergence) << name;
+    EXPECT_NE(found.error().message.find("raise"), std::string::npos) << name;
+  }
+}
+
+TEST(Regression, HundredsOfSlicesThatShareAGuideDoNotLieOnTopOfEachOther) {
+  // One street all around: every slice turns into the ridge of the skeleton.
+  blocks::Block block = rectangle(1000, 40);
+  for (blocks::BlockEdge& edge : block.edges[0]) edge.logical_street = 0;
+  const double seconds = seconds_of([&] {
+    const auto parcels = divide(
+        "skeleton", {{"area_min_m2", 0.0}, {"width_min_m", 1.5}, {"width_max_m", 1.5}}, block);
+    ASSERT_TRUE(parcels);
+    EXPECT_GT(parcels->size(), 500U);
+    EXPECT_FALSE(find_coverage_defect(block.contour, *parcels, kContourTolerance_m));
+  });
+  EXPECT_LT(seconds, 5.0);
+}
+
+TEST(Regression, SlicesThatCrossAsALatticeAreBounded) {
+  // Two sides face one street, two face none: the slices of both cross behind the others.
+  blocks::Block block = rectangle(500, 400);
+  for (std::size_t i = 0; i < 4; ++i) {
+    block.edges[0][i] = {};
+    if (i == 0 || i == 3) block.edges[0][i].logical_street = 0;
+  }
+  const auto found = divide("skeleton", {{"width_min_m", 0.0}, {"width_max_m", 0.5}}, block);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, FailureCode::kNoConvergence);
+}
+
+}  // namespace
+}  // namespace plat::parcels
