@@ -238,8 +238,10 @@ class DatasetRun {
 
 ExperimentOutcome run_experiment(const ExperimentConfig& config, const std::filesystem::path& out,
                                  Jobs jobs, Resume resume) {
-  for (const std::string& name : config.datasets) expect_present(geodata::dataset(name));
   std::error_code error;
+  if (std::filesystem::exists(out, error) && !std::filesystem::is_directory(out, error))
+    throw InputError(fmt::format("{}: is a file; --out names a folder", out.string()));
+  for (const std::string& name : config.datasets) expect_present(geodata::dataset(name));
   std::filesystem::create_directories(out, error);
   if (error) throw InputError(fmt::format("{}: cannot be made: {}", out.string(), error.message()));
   std::filesystem::remove(out / "manifest.json", error);  // what is there now is no longer a run
