@@ -1,0 +1,95 @@
+#include "harness/experiment.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "geodata/scratch_folder.h"
+#include "harness/atomic_file.h"
+#include "support/data_folder.h"
+
+namespace plat::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ScratchFolder;
+
+ExperimentConfig small_config() {
+  ExperimentConfig config;
+  config.experiment = "test";
+  config.datasets = {"prague_bubenec_cz"};
+  config.strategies = {{"obb", "obb", {}, Fit::kPerBlock}, {"plain", "voronoi", {}, Fit::kNone}};
+  config.repetitions = 2;
+  config.statistics.resamples = 30;
+  config.statistics.permutations = 100;
+  config.statistics.noise_repetitions = 10;
+  return config;
+}
+
+/// Bytes of every file but timings.json.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.path().filename() == "timings.json") continue;
+    out[fs::relative(entry.path(), folder).string()] = testing::bytes_of(entry.path().string());
+  }
+  return out;
+}
+
+TEST(RunExperiment, ResumeGivesTheBytesOfAWholeRun) {
+  PLAT_REAL_DATA_OR_SKIP(city, "prague_bubenec_cz/prague_bubenec_cz.gpkg");
+  const ScratchFolder folder;
+  const fs::path out = folder.file("run");
+  const ExperimentConfig config = small_config();
+  const auto first = run_experiment(config, out, Jobs{2}, Resume::kYes);
+  EXPECT_EQ(first.resumed_cells, 0U);
+  const auto whole = contents(out);
+  EXPECT_TRUE(fs::remove(out / "cells" / "prague_bubenec_cz__plain__1.json"));
+  EXPECT_TRUE(fs::remove(out / "distances.csv"));
+  const auto second = run_experiment(config, out, Jobs{1}, Resume::kYes);
+  EXPECT_EQ(second.resumed_cells, 3U);
+  EXPECT_EQ(second.blocks, first.blocks);
+  EXPECT_EQ(second.failures, first.failures);
+  EXPECT_EQ(contents(out), whole);
+}
+
+TEST(RunExperiment, CellsOfOtherOptionsAreRunAgain) {
+  PLAT_REAL_DATA_OR_SKIP(city, "prague_bubenec_cz/prague_bubenec_cz.gpkg");
+  const ScratchFolder folder;
+  ExperimentConfig config = small_config();
+  static_cast<void>(run_experiment(config, folder.file("run"), Jobs{2}, Resume::kNo));
+  config.strategies[1].options = {{"area_mean_m2", 700.0}};
+  const auto second = run_experiment(config, folder.file("run"), Jobs{2}, Resume::kYes);
+  EXPECT_EQ(second.resumed_cells, 2U);
+}
+
+TEST(RunExperiment, MakesNoFolderForADataSetThatIsNotThere) {
+  const ScratchFolder folder;
+  ExperimentConfig config = small_config();
+  config.datasets = {"rcsp_or_library"};  // has no plots
+  EXPECT_THROW(static_cast<void>(run_experiment(config, folder.file("run"), Jobs{1}, Resume::kNo)),
+               InputError);
+  EXPECT_FALSE(fs::exists(folder.file("run")));
+}
+
+TEST(WriteFile, ReplacesWholeOrNotAtAll) {
+  const ScratchFolder folder;
+  const fs::path path = folder.file("a.csv");
+  write_file(path, "one");
+  write_file(path, "two");
+  EXPECT_EQ(testing::bytes_of(path.string()), "two");
+  EXPECT_THROW(write_file(folder.file("none/a.csv"), "three"), InputError);
+  fs::create_directory(folder.file("taken"));
+  write_file(folder.file("taken/inside"), "");
+  EXPECT_THROW(write_file(folder.file("taken"), "four"), InputError);
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder.file(""))) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 2U);
+}
+
+}  // namespace
+}  // namespace plat::harness
