@@ -21,9 +21,9 @@ constexpr double kCornerTurn_rad = 0.175;  // 10 degrees
 /// worse.
 constexpr std::size_t kComfortableVertices = 300;
 constexpr double kCoarsest_m = 4.0;
-/// Slices of two streets may cross behind a side without a street, as a lattice. A slice crosses at
-/// most one other per spacing; more crossings than this would take minutes and gigabytes.
-constexpr double kMaxCrossings = 200'000.0;
+/// Slices of two streets may cross behind a side without a street, as a lattice: more crossings
+/// than this would take minutes and gigabytes.
+constexpr std::size_t kMaxCrossings = 50'000;
 
 int corner_count(const Ring& ring) {
   int corners = 0;
@@ -86,6 +86,23 @@ Expected<StripLayout> lay_out(const blocks::Block& block, double simplify_m, Cor
   }
 }
 
+/// Few cuts are not worth counting; kMaxLotsPerBlock bounds the rest.
+bool has_more_crossings(const std::vector<Segment>& cuts, std::size_t limit) {
+  if (cuts.size() * cuts.size() < 4 * limit) return false;  // n/2 slices may cross n/2 others
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const Segment& s = cuts[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      const Segment& t = cuts[j];
+      const bool is_cut = (orientation(s.a, s.b, t.a) < 0.0) != (orientation(s.a, s.b, t.b) < 0.0);
+      if (!is_cut) continue;
+      if ((orientation(t.a, t.b, s.a) < 0.0) != (orientation(t.a, t.b, s.b) < 0.0)) ++count;
+    }
+    if (count > limit) return true;
+  }
+  return false;
+}
+
 tl::unexpected<Failure> lots_too_narrow(double front_m, double spacing_m) {
   return fail(FailureCode::kNoConvergence,
               fmt::format("lots {:g} m wide are too many along {:.0f} m of streets: raise "
@@ -109,9 +126,7 @@ Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block&
   if (front_m / spacing_m > static_cast<double>(kMaxLotsPerBlock))
     return lots_too_narrow(front_m, spacing_m);
   std::vector<Segment> cuts = slice_strips(*layout, {spacing_m, options_.irregularity}, rng);
-  double cut_m = 0.0;
-  for (const Segment& cut : cuts) cut_m += length(cut);
-  if (cut_m / spacing_m > kMaxCrossings) return lots_too_narrow(front_m, spacing_m);
+  if (has_more_crossings(cuts, kMaxCrossings)) return lots_too_narrow(front_m, spacing_m);
   cuts.insert(cuts.end(), layout->walls.begin(), layout->walls.end());
   auto partition = BlockPartition::cut(block, cuts);
   if (!partition) return tl::unexpected<Failure>(partition.error());
