@@ -42,9 +42,9 @@ class ByteReader {
 
 /// How the bytes of a coordinate are read. Most inputs should be near the edge of being valid.
 enum class Coordinates : std::uint8_t {
-  kCoarse,    ///< one byte, steps of 4 m: collinear, repeated and touching points are common
+  kCoarse,    ///< one byte, steps of 1 m: collinear, repeated and touching points are common
   kGridStep,  ///< two bytes, steps of the working grid, 64 m wide: nearly closed spikes and slivers
-  kMetres,    ///< two bytes, steps of 1/64 m, 1 km wide: city blocks
+  kMetres,    ///< two bytes, steps of 1/256 m, 256 m wide: city blocks
   kFar,       ///< as kMetres, but 1800 km from the origin
   kRaw,       ///< eight bytes, any double: NaN, infinities, denormals
 };
@@ -53,13 +53,13 @@ inline constexpr int kCoordinateModes = 5;
 inline double coordinate(ByteReader& in, Coordinates mode) {
   switch (mode) {
     case Coordinates::kCoarse:
-      return 4.0 * static_cast<double>(static_cast<std::int8_t>(in.byte()));
+      return static_cast<double>(static_cast<std::int8_t>(in.byte()));
     case Coordinates::kGridStep:
       return static_cast<double>(in.take<std::int16_t>()) / 1024.0;
     case Coordinates::kMetres:
-      return static_cast<double>(in.take<std::int16_t>()) / 64.0;
+      return static_cast<double>(in.take<std::int16_t>()) / 256.0;
     case Coordinates::kFar:
-      return 1.8e6 + static_cast<double>(in.take<std::int16_t>()) / 64.0;
+      return 1.8e6 + static_cast<double>(in.take<std::int16_t>()) / 256.0;
     case Coordinates::kRaw:
       return std::bit_cast<double>(in.take<std::uint64_t>());
   }

@@ -10,11 +10,12 @@ import struct
 import sys
 
 COARSE, GRID_STEP, METRES, FAR, RAW = range(5)
+OPTIONS = 21  # of all strategies together; a few more or less only shift the labels
 PACK = {
-    COARSE: lambda v: struct.pack("<b", max(-128, min(127, round(v / 4)))),
+    COARSE: lambda v: struct.pack("<b", max(-128, min(127, round(v)))),
     GRID_STEP: lambda v: struct.pack("<h", max(-32768, min(32767, round(v * 1024)))),
-    METRES: lambda v: struct.pack("<h", max(-32768, min(32767, round(v * 64)))),
-    FAR: lambda v: struct.pack("<h", max(-32768, min(32767, round(v * 64)))),
+    METRES: lambda v: struct.pack("<h", max(-32768, min(32767, round(v * 256)))),
+    FAR: lambda v: struct.pack("<h", max(-32768, min(32767, round(v * 256)))),
     RAW: lambda v: struct.pack("<d", v),
 }
 
@@ -44,7 +45,7 @@ def rings():
     square = rectangle(0, 0, 100, 80)
     return {
         "rectangle": [square],
-        "strip": [rectangle(0, 0, 400, 12)],
+        "strip": [rectangle(0, 0, 120, 12)],
         "triangle": [[(0, 0), (90, 0), (30, 70)]],
         "l_shape": [[(0, 0), (120, 0), (120, 40), (50, 40), (50, 110), (0, 110)]],
         "courtyard": [square, rectangle(30, 30, 40, 20)[::-1]],
@@ -61,7 +62,7 @@ def rings():
         "comb": [comb(6, 8, 6, 50)],
         "repeated_points": [[(0, 0), (0, 0), (100, 0), (100, 60), (100, 60), (0, 60)]],
         "tiny": [rectangle(0, 0, 0.01, 0.01)],
-        "large": [rectangle(-250, -200, 500, 400)],
+        "large": [rectangle(-125, -120, 250, 240)],
     }
 
 
@@ -78,8 +79,8 @@ def cases():
     for name, shape in rings().items():
         for mode in (COARSE, GRID_STEP, METRES, FAR, RAW):
             yield f"{name}_{mode}", bytes([192]) + b"\1\0" + polygon_bytes(mode, shape)
-            # Labels on every second edge, small lots.
-            tail = bytes([1, 0, 2] * 24 + [7, 0, 66, 35] * 16)
+            # Default options, labels on three of four edges.
+            tail = bytes([0] * OPTIONS + [7, 0, 66, 35] * 16)
             yield f"{name}_{mode}_labelled", bytes([3]) + b"\2\0" + polygon_bytes(mode, shape) + tail
     for value in (math.nan, math.inf, -math.inf, 1e300, 2097152.0, 5e-324):
         shape = [[(0, 0), (100, 0), (100, value), (0, 80)]]
