@@ -36,7 +36,12 @@ function(plat_test name)
   if(TARGET plat_test_pch)
     target_precompile_headers(${name} REUSE_FROM plat_test_pch)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT 900)
+  # An empty label would shift the properties behind it.
+  set(properties TIMEOUT 900)
+  if(ARG_LABEL)
+    list(APPEND properties LABELS "${ARG_LABEL}")
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
 # plat_benchmark(NAME [LINK target...])

@@ -30,7 +30,7 @@ class SkeletonSubdivider {
     double width_max_m = 20.0;   ///< upper bound of width
     double irregularity = 0.2;   ///< omega: the variance of spacings is 3 omega m2
     CornerScheme corners = CornerScheme::kStreetWidth;  ///< which strip gets a corner region
-    double simplify_m = 0.25;     ///< tolerance of the contour that the skeleton is built on
+    double simplify_m = 0.35;     ///< tolerance of the contour that the skeleton is built on
     double fit_deviations = 2.0;  ///< k: bounds fitted to observed parcels are mean +- k deviations
 
     static constexpr auto fields() {
