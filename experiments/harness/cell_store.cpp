@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -78,7 +79,49 @@ DividedBlock block_from(const json& object) {
   return out;
 }
 
+/// FNV-1a over 64-bit words.
+class Digest {
+ public:
+  void add(std::uint64_t word) {
+    for (int shift = 0; shift < 64; shift += 8) {
+      value_ ^= (word >> shift) & 0xffU;
+      value_ *= 1099511628211ULL;
+    }
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
 }  // namespace
+
+std::uint64_t input_digest(std::span<const blocks::Block> blocks,
+                           std::span<const parcels::ParcelStyle> styles) {
+  Digest digest;
+  for (const blocks::Block& block : blocks) {
+    digest.add(std::uint64_t{block.id.value});
+    for (std::size_t r = 0; r < block.edges.size(); ++r) {
+      const Ring& ring = blocks::ring_at(block, r);
+      digest.add(std::uint64_t{ring.size()});
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const blocks::BlockEdge& edge = block.edges[r][i];
+        digest.add(ring[i].x);
+        digest.add(ring[i].y);
+        digest.add(std::uint64_t{edge.logical_street ? 1U + *edge.logical_street : 0U});
+        digest.add(edge.street_width_m);
+      }
+    }
+  }
+  for (const parcels::ParcelStyle& style : styles) {
+    digest.add(std::uint64_t{style.count});
+    for (const double value :
+         {style.area_mean_m2, style.area_deviation_m2, style.width_mean_m, style.width_deviation_m})
+      digest.add(value);
+  }
+  return digest.value();
+}
 
 std::optional<std::vector<DividedBlock>> CellStore::load(const std::string& name,
                                                          const std::string& key) const {

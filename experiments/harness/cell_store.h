@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,9 +11,14 @@
 
 namespace plat::harness {
 
+/// A checksum of what strategies see of a city: contours, edge labels and styles, to the last bit.
+/// Other files, or another way of reading them, give another one.
+std::uint64_t input_digest(std::span<const blocks::Block> blocks,
+                           std::span<const parcels::ParcelStyle> styles);
+
 /// One finished cell of the grid on disk, so that an interrupted run goes on where it stopped.
 ///
-/// A cell's key is everything its result depends on: data set and the checksum of its files,
+/// A cell's key is everything its result depends on: data set and the digest of its blocks,
 /// strategy, options, fit, seed, repetition, and the commit of the program. A file with another key
 /// is not taken.
 class CellStore {

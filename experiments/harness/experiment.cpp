@@ -57,6 +57,7 @@ class DatasetRun {
         city_.blocks.size(), jobs, [&](std::size_t i) {
           return parcels::measure_parcels(city_.blocks[i].block, city_.blocks[i].parcels);
         });
+    input_digest_ = input_digest(blocks_, styles_);
     watch_.lap("measure observed " + dataset.name);
   }
 
@@ -194,7 +195,7 @@ class DatasetRun {
     const std::string name = fmt::format("{}__{}__{}", dataset_.name, strategy.label, repetition);
     json key = build_info();
     key["dataset"] = dataset_.name;
-    for (const auto& file : dataset_.files) key["files"][file.path] = file.sha256;
+    key["input"] = input_digest_;
     key["strategy"] = {strategy.name, to_string(strategy.options),
                        strategy.fit == Fit::kNone ? "none" : "per_block"};
     key["seed"] = config_.seed;
@@ -228,6 +229,7 @@ class DatasetRun {
   City city_;
   std::vector<blocks::Block> blocks_;
   std::vector<parcels::ParcelStyle> styles_;
+  std::uint64_t input_digest_ = 0;
   MeasuredLayer observed_;
   std::vector<MeasuredLayer> layers_;  ///< per strategy
   std::vector<std::vector<std::vector<DividedBlock>>>

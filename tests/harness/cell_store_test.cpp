@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/working_grid.h"
 #include "geodata/scratch_folder.h"
 #include "support/property.h"
 #include "support/synthetic_blocks.h"
@@ -76,6 +77,29 @@ TEST(CellStore, TakesNoDamagedCell) {
     std::ofstream(folder.file("cell.json")) << text;
     EXPECT_FALSE(store.load("cell", "k")) << text;
   }
+}
+
+TEST(InputDigest, ChangesWithWhateverAStrategySees) {
+  Rng rng = testing::property_rng("InputDigest");
+  std::vector<blocks::Block> blocks;
+  for (Polygon& shape : testing::synthetic_blocks(rng, 5))
+    blocks.push_back(blocks::block_from_contour({0}, std::move(shape)));
+  std::vector<parcels::ParcelStyle> styles(5);
+  const std::uint64_t before = input_digest(blocks, styles);
+  EXPECT_EQ(input_digest(blocks, styles), before);
+  const auto expect_other = [&](auto change, auto undo) {
+    change();
+    EXPECT_NE(input_digest(blocks, styles), before);
+    undo();
+    EXPECT_EQ(input_digest(blocks, styles), before);
+  };
+  double& x = blocks[3].contour.outer[1].x;
+  expect_other([&] { x += kGridStep_m; }, [&] { x -= kGridStep_m; });
+  blocks::BlockEdge& edge = blocks[4].edges[0][0];
+  const blocks::BlockEdge kept = edge;
+  expect_other([&] { edge = {}; }, [&] { edge = kept; });
+  expect_other([&] { styles[2].count = 7; }, [&] { styles[2].count = 0; });
+  expect_other([&] { styles[1].width_mean_m = 1; }, [&] { styles[1].width_mean_m = 0; });
 }
 
 TEST(CellStore, LeavesNoTemporaryBeside) {
