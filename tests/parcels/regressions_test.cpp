@@ -42,7 +42,8 @@ TEST(Regression, LotsFarTooSmallForTheBlockAreAFailureNotAFullMemory) {
 }
 
 TEST(Regression, HundredsOfSlicesThatShareAGuideDoNotLieOnTopOfEachOther) {
-  // One street on three sides: every slice turns into the ridge of the skeleton, towards the fourth.
+  // One street on three sides: every slice turns into the ridge of the skeleton, towards the
+  // fourth.
   blocks::Block block = rectangle(1000, 40);
   for (std::size_t i = 0; i < 4; ++i) block.edges[0][i].logical_street = i == 3 ? 1 : 0;
   const double seconds = seconds_of([&] {
