@@ -40,27 +40,37 @@ std::vector<bool> find_inside(const PlanarGraph& graph, const PlanarFaces& faces
   return is_inside;
 }
 
-bool has_contour_overlap(const PlanarGraph& graph, std::size_t contour_size) {
-  return std::any_of(graph.overlaps.begin(), graph.overlaps.end(),
-                     [&](const PlanarGraph::Overlap& o) { return o.source < contour_size; });
-}
-
-/// Cuts with a node on an edge that two contour edges share after noding.
-std::vector<std::uint32_t> find_closing_cuts(const PlanarGraph& graph, std::size_t contour_size) {
-  std::vector<bool> is_shared(graph.nodes.size(), false);
+/// Nodes in which the contour touches itself after noding: it has bent through one of its own
+/// vertices, or through the end of a cut, within a grid step.
+std::vector<bool> find_touches(const PlanarGraph& graph, std::size_t contour_size) {
+  std::vector<int> contour_edges(graph.nodes.size(), 0);
+  for (const PlanarGraph::Edge& e : graph.edges) {
+    if (e.source >= contour_size) continue;
+    ++contour_edges[e.from];
+    ++contour_edges[e.to];
+  }
+  std::vector<bool> is_touch(graph.nodes.size());
+  for (std::size_t n = 0; n < is_touch.size(); ++n) is_touch[n] = contour_edges[n] > 2;
   for (const PlanarGraph::Overlap& o : graph.overlaps) {
     if (o.source >= contour_size) continue;
-    is_shared[graph.edges[o.edge].from] = true;
-    is_shared[graph.edges[o.edge].to] = true;
+    is_touch[graph.edges[o.edge].from] = true;
+    is_touch[graph.edges[o.edge].to] = true;
   }
+  return is_touch;
+}
+
+/// Cuts with a node where the contour touches itself.
+std::vector<std::uint32_t> find_closing_cuts(const PlanarGraph& graph,
+                                             const std::vector<bool>& is_touch,
+                                             std::size_t contour_size) {
   std::vector<std::uint32_t> out;
   for (const PlanarGraph::Edge& e : graph.edges) {
-    if (e.source >= contour_size && (is_shared[e.from] || is_shared[e.to])) out.push_back(e.source);
+    if (e.source >= contour_size && (is_touch[e.from] || is_touch[e.to])) out.push_back(e.source);
   }
   // A cut may have run along the contour only, under another source.
   for (const PlanarGraph::Overlap& o : graph.overlaps) {
     const PlanarGraph::Edge& e = graph.edges[o.edge];
-    if (o.source >= contour_size && (is_shared[e.from] || is_shared[e.to])) out.push_back(o.source);
+    if (o.source >= contour_size && (is_touch[e.from] || is_touch[e.to])) out.push_back(o.source);
   }
   return out;
 }
@@ -84,13 +94,14 @@ Expected<BlockPartition> BlockPartition::cut(const blocks::Block& block,
   PlanarGraph noded = node_segments(segments);
   // A cut that ends within a grid step of the tip of a spike would close it: such cuts are left
   // out, one by one where need be.
-  for (std::vector<std::uint32_t> closing = find_closing_cuts(noded, contour_size);
-       !closing.empty(); closing = find_closing_cuts(noded, contour_size)) {
+  for (;;) {
+    const std::vector<bool> is_touch = find_touches(noded, contour_size);
+    if (std::find(is_touch.begin(), is_touch.end(), true) == is_touch.end()) break;
+    const std::vector<std::uint32_t> closing = find_closing_cuts(noded, is_touch, contour_size);
+    if (closing.empty())
+      return fail(FailureCode::kNotSimple, "the contour touches itself within a grid step");
     for (const std::uint32_t source : closing) segments[source].b = segments[source].a;
     noded = node_segments(segments);
-  }
-  if (has_contour_overlap(noded, contour_size)) {
-    return fail(FailureCode::kNotSimple, "the contour touches itself within a grid step");
   }
   out.graph_ = without_edges(noded, find_dead_ends(noded));
   const PlanarFaces faces = find_faces(out.graph_);

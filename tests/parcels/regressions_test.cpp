@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "blocks/block.h"
+#include "core/validity.h"
 #include "parcels/block_subdivider.h"
 #include "parcels/coverage.h"
 
@@ -66,6 +67,23 @@ TEST(Regression, SlicesThatCrossAsALatticeAreBounded) {
   const auto found = divide("skeleton", {{"width_min_m", 0.0}, {"width_max_m", 0.5}}, block);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, FailureCode::kNoConvergence);
+}
+
+TEST(Regression, AContourThatPassesItsOwnVertexWithinAGridStepIsAFailure) {
+  // The long edge runs 0.4 grid steps below the tip at (10, 0): noding bends it through the tip.
+  constexpr double kStep = 1.0 / 1024.0;
+  Polygon needle{{{-2, -kStep}, {18, 0}, {30, 15}, {17, 10}, {10, 0}, {8, 30}, {-20, 10}}, {}};
+  ASSERT_FALSE(find_defect(needle)) << "strictly simple as it is";
+  const blocks::Block block = blocks::block_from_contour({0}, needle);
+  for (const std::string& name : block_subdividers().names()) {
+    const auto found = divide(name.c_str(), {}, block);
+    if (!found) {
+      EXPECT_EQ(found.error().code, FailureCode::kNotSimple) << name;
+      continue;
+    }
+    const auto defect = find_coverage_defect(block.contour, *found, kContourTolerance_m);
+    EXPECT_FALSE(defect) << name << ": " << defect->message;
+  }
 }
 
 }  // namespace
