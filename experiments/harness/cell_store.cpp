@@ -125,13 +125,11 @@ std::uint64_t input_digest(std::span<const blocks::Block> blocks,
 
 std::optional<std::vector<DividedBlock>> CellStore::load(const std::string& name,
                                                          const std::string& key) const {
-  std::ifstream in(folder_ / (name + ".json"));
-  if (!in) return std::nullopt;
-  const json cell = json::parse(in, nullptr, false);
+  const std::optional<json> blocks = load_note(name, key);
+  if (!blocks) return std::nullopt;
   try {
-    if (!cell.is_object() || cell.at("key") != key) return std::nullopt;
     std::vector<DividedBlock> out;
-    for (const json& block : cell.at("blocks")) out.push_back(block_from(block));
+    for (const json& block : *blocks) out.push_back(block_from(block));
     return out;
   } catch (const json::exception&) {
     return std::nullopt;  // not a cell of ours: it is run again
@@ -140,13 +138,29 @@ std::optional<std::vector<DividedBlock>> CellStore::load(const std::string& name
 
 void CellStore::save(const std::string& name, const std::string& key,
                      const std::vector<DividedBlock>& blocks) const {
+  json note = json::array();
+  for (const DividedBlock& block : blocks) note.push_back(block_json(block));
+  save_note(name, key, note);
+}
+
+std::optional<json> CellStore::load_note(const std::string& name, const std::string& key) const {
+  std::ifstream in(folder_ / (name + ".json"));
+  if (!in) return std::nullopt;
+  const json file = json::parse(in, nullptr, false);
+  try {
+    if (!file.is_object() || file.at("key") != key) return std::nullopt;
+    return file.at("blocks");
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+}
+
+void CellStore::save_note(const std::string& name, const std::string& key, const json& note) const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error)
     throw InputError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
-  json cell{{"key", key}, {"blocks", json::array()}};
-  for (const DividedBlock& block : blocks) cell["blocks"].push_back(block_json(block));
-  write_file(folder_ / (name + ".json"), cell.dump());
+  write_file(folder_ / (name + ".json"), json{{"key", key}, {"blocks", note}}.dump());
 }
 
 }  // namespace plat::harness

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,11 @@ class CellStore {
   /// Written beside and renamed: a cell is there whole or not at all.
   void save(const std::string& name, const std::string& key,
             const std::vector<DividedBlock>& blocks) const;
+
+  /// Anything else that is worth keeping beside the cells: the same rules.
+  [[nodiscard]] std::optional<nlohmann::json> load_note(const std::string& name,
+                                                        const std::string& key) const;
+  void save_note(const std::string& name, const std::string& key, const nlohmann::json& note) const;
 
  private:
   std::filesystem::path folder_;

@@ -13,6 +13,7 @@
 #include "harness/city.h"
 #include "harness/city_layers.h"
 #include "harness/comparison_tables.h"
+#include "harness/option_search.h"
 #include "harness/run_tables.h"
 
 namespace plat::harness {
@@ -62,11 +63,12 @@ class DatasetRun {
   }
 
   void run_strategy(const StrategyConfig& strategy, Resume resume, ExperimentOutcome& outcome) {
+    searches_.push_back(find_options(strategy, resume, outcome));
     MeasuredLayer measured{strategy.label,
                            std::vector<std::vector<parcels::ParcelMeasures>>(blocks_.size())};
     std::vector<std::vector<DividedBlock>> repetitions;
     for (int repetition = 0; repetition < config_.repetitions; ++repetition) {
-      repetitions.push_back(run_cell(strategy, repetition, resume, outcome));
+      repetitions.push_back(run_cell(strategy, searches_.back(), repetition, resume, outcome));
       for (std::size_t i = 0; i < blocks_.size(); ++i) {
         const DividedBlock& block = repetitions.back()[i];
         measured.per_block[i].insert(measured.per_block[i].end(), block.measures.begin(),
@@ -97,6 +99,12 @@ class DatasetRun {
         for (std::size_t i = 0; i < cell.size(); ++i)
           write_divided(config_.strategies[s].label, repetition, i, cell[i], tables);
       }
+    }
+  }
+
+  void write_searches(SearchTable& table) const {
+    for (std::size_t s = 0; s < searches_.size(); ++s) {
+      if (searches_[s]) table.add(dataset_.name, config_.strategies[s].label, *searches_[s]);
     }
   }
 
@@ -154,10 +162,26 @@ class DatasetRun {
             {"blocks", blocks_.size()},
             {"parcels", parcels},
             {"input_failures", city_.failures.size()},
-            {"repairs", city_.repairs.size()}};
+            {"repairs", city_.repairs.size()},
+            {"searches", describe_searches()}};
   }
 
  private:
+  [[nodiscard]] json describe_searches() const {
+    json out = json::array();
+    for (std::size_t s = 0; s < searches_.size(); ++s) {
+      if (!searches_[s]) continue;
+      for (std::size_t fold = 0; fold < searches_[s]->search_blocks.size(); ++fold) {
+        const SearchRow& chosen = searches_[s]->chosen(fold);
+        out.push_back({{"layer", config_.strategies[s].label},
+                       {"fold", fold},
+                       {"options", options_json(chosen.options)},
+                       {"score", chosen.score}});
+      }
+    }
+    return out;
+  }
+
   [[nodiscard]] BlockRow row_of(std::string layer, int repetition, std::size_t i) const {
     BlockRow row;
     row.layer = std::move(layer);
@@ -189,29 +213,71 @@ class DatasetRun {
     tables.add_block(dataset_.name, row);
   }
 
-  std::vector<DividedBlock> run_cell(const StrategyConfig& strategy, int repetition, Resume resume,
-                                     ExperimentOutcome& outcome) {
-    const CellStore store(out_ / "cells");
-    const std::string name = fmt::format("{}__{}__{}", dataset_.name, strategy.label, repetition);
+  [[nodiscard]] json key_of(const StrategyConfig& strategy) const {
     json key = build_info();
     key["dataset"] = dataset_.name;
     key["input"] = input_digest_;
     key["strategy"] = {strategy.name, to_string(strategy.options),
                        strategy.fit == Fit::kNone ? "none" : "per_block"};
     key["seed"] = config_.seed;
+    if (strategy.search) {
+      key["search"] = to_json(*strategy.search);
+      key["noise_repetitions"] = config_.statistics.noise_repetitions;
+    }
+    return key;
+  }
+
+  [[nodiscard]] SearchPlace place() const {
+    return {dataset_.name, blocks_, styles_, observed_.per_block};
+  }
+
+  std::optional<SearchResult> find_options(const StrategyConfig& strategy, Resume resume,
+                                           ExperimentOutcome& outcome) {
+    if (!strategy.search) return std::nullopt;
+    const CellStore store(out_ / "cells");
+    const std::string name = fmt::format("{}__{}__search", dataset_.name, strategy.label);
+    const std::string key = key_of(strategy).dump();
     if (resume == Resume::kYes) {
-      if (auto cell = store.load(name, key.dump()); cell && cell->size() == blocks_.size()) {
+      if (const auto note = store.load_note(name, key)) {
+        if (auto search = search_from(*note, blocks_.size())) {
+          ++outcome.resumed_cells;
+          return search;
+        }
+      }
+    }
+    SearchResult search = search_options(place(), strategy, config_.statistics.noise_repetitions,
+                                         config_.seed, jobs_);
+    store.save_note(name, key, to_json(search));
+    watch_.lap(fmt::format("search {} {}", dataset_.name, strategy.label));
+    return search;
+  }
+
+  std::vector<DividedBlock> run_cell(const StrategyConfig& strategy,
+                                     const std::optional<SearchResult>& search, int repetition,
+                                     Resume resume, ExperimentOutcome& outcome) {
+    const CellStore store(out_ / "cells");
+    const std::string name = fmt::format("{}__{}__{}", dataset_.name, strategy.label, repetition);
+    const std::string key = key_of(strategy).dump();
+    if (resume == Resume::kYes) {
+      if (auto cell = store.load(name, key); cell && cell->size() == blocks_.size()) {
         parallel_for(cell->size(), jobs_,
                      [&](std::size_t i) { measure_again((*cell)[i], blocks_[i]); });
         ++outcome.resumed_cells;
         return *std::move(cell);
       }
     }
-    Progress progress(fmt::format("{} on {}", strategy.label, dataset_.name), blocks_.size());
-    std::vector<DividedBlock> cell = subdivide_blocks(blocks_, strategy, styles_, dataset_.name,
-                                                      config_.seed, repetition, jobs_, progress);
-    store.save(name, key.dump(), cell);
+    std::vector<DividedBlock> cell = divide(strategy, search, repetition);
+    store.save(name, key, cell);
     return cell;
+  }
+
+  std::vector<DividedBlock> divide(const StrategyConfig& strategy,
+                                   const std::optional<SearchResult>& search, int repetition) {
+    if (search)
+      return subdivide_by_fold(place(), strategy, *search, config_.seed, repetition, jobs_);
+    Progress progress(fmt::format("{} on {}", strategy.label, dataset_.name), blocks_.size());
+    return subdivide_blocks(blocks_, strategy, styles_, dataset_.name, config_.seed, repetition,
+                            jobs_, progress);
   }
 
   static void measure_again(DividedBlock& divided, const blocks::Block& block) {
@@ -231,7 +297,8 @@ class DatasetRun {
   std::vector<parcels::ParcelStyle> styles_;
   std::uint64_t input_digest_ = 0;
   MeasuredLayer observed_;
-  std::vector<MeasuredLayer> layers_;  ///< per strategy
+  std::vector<std::optional<SearchResult>> searches_;  ///< per strategy
+  std::vector<MeasuredLayer> layers_;                  ///< per strategy
   std::vector<std::vector<std::vector<DividedBlock>>>
       divided_;  ///< per strategy, repetition, block
 };
@@ -251,18 +318,21 @@ ExperimentOutcome run_experiment(const ExperimentConfig& config, const std::file
   Stopwatch watch;
   RunTables tables;
   ComparisonTables comparison;
+  SearchTable searches;
   json datasets = json::array();
   for (const std::string& name : config.datasets) {
     DatasetRun run(config, geodata::dataset(name), out, jobs, watch);
     for (const StrategyConfig& strategy : config.strategies)
       run.run_strategy(strategy, resume, outcome);
     run.write_rows(tables);
+    run.write_searches(searches);
     run.write_comparison(comparison);
     run.write_layout(outcome);
     datasets.push_back(run.describe());
   }
   tables.write(out);
   comparison.write(out);
+  write_file(out / "search.csv", searches.text());
   watch.lap("write tables");
   write_file(out / "timings.json", watch.laps().dump(1) + "\n");
   json manifest = build_info();

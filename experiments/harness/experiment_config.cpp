@@ -9,86 +9,13 @@
 
 #include "geodata/dataset_catalogue.h"
 #include "harness/build_info.h"
+#include "harness/config_reader_internal.h"
 #include "parcels/block_subdivider.h"
 
 namespace plat::harness {
 namespace {
 
 using nlohmann::json;
-
-/// Reads the keys of one JSON object and refuses those that nobody asked for.
-class ObjectReader {
- public:
-  ObjectReader(const json& object, std::string where) : object_(object), where_(std::move(where)) {
-    if (!object.is_object()) throw InputError(where_ + ": must be a JSON object");
-  }
-
-  const json* find(std::string_view key) {
-    known_.push_back(key);
-    const auto it = object_.find(key);
-    return it == object_.end() ? nullptr : &*it;
-  }
-
-  std::string text(std::string_view key, const std::string& fallback) {
-    const json* value = find(key);
-    if (value == nullptr) return fallback;
-    if (!value->is_string())
-      throw InputError(fmt::format("{}: \"{}\" must be a text", where_, key));
-    return value->get<std::string>();
-  }
-
-  std::int64_t whole(std::string_view key, std::int64_t fallback, std::int64_t min,
-                     std::int64_t max) {
-    const json* value = find(key);
-    if (value == nullptr) return fallback;
-    if (!value->is_number_integer())
-      throw InputError(fmt::format("{}: \"{}\" must be a whole number", where_, key));
-    const auto number = value->get<std::int64_t>();
-    if (number < min || number > max)
-      throw InputError(fmt::format("{}: {} = {}, allowed {}..{}", where_, key, number, min, max));
-    return number;
-  }
-
-  void expect_nothing_else() const {
-    for (const auto& [key, value] : object_.items()) {
-      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-      throw InputError(
-          fmt::format("{}: unknown key \"{}\"{}", where_, key, did_you_mean(key, known_)));
-    }
-  }
-
-  [[nodiscard]] const std::string& where() const { return where_; }
-
- private:
-  const json& object_;
-  std::string where_;
-  std::vector<std::string_view> known_;
-};
-
-/// Calls `check`, and puts the place in the config before what it refuses.
-template <class Check>
-void naming(const std::string& where, Check check) {
-  try {
-    check();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", where, error.what()));
-  }
-}
-
-OptionMap read_options(const json& object, const std::string& where) {
-  OptionMap out;
-  if (!object.is_object()) throw InputError(where + ": \"options\" must be a JSON object");
-  for (const auto& [key, value] : object.items()) {
-    if (value.is_number()) {
-      out.emplace(key, value.get<double>());
-    } else if (value.is_string()) {
-      out.emplace(key, value.get<std::string>());
-    } else {
-      throw InputError(fmt::format("{}: option \"{}\" must be a number or a text", where, key));
-    }
-  }
-  return out;
-}
 
 StrategyConfig read_strategy(const json& object, const std::string& where) {
   ObjectReader reader(object, where);
@@ -97,6 +24,7 @@ StrategyConfig read_strategy(const json& object, const std::string& where) {
   out.label = reader.text("label", out.name);
   if (const json* options = reader.find("options")) out.options = read_options(*options, where);
   const std::string fit = reader.text("fit", "per_block");
+  const json* search = reader.find("search");
   reader.expect_nothing_else();
   if (fit != "per_block" && fit != "none")
     throw InputError(fmt::format("{}: fit = \"{}\", allowed: per_block, none", where, fit));
@@ -116,6 +44,10 @@ StrategyConfig read_strategy(const json& object, const std::string& where) {
   naming(where, [&] {  // a typo never runs an experiment
     static_cast<void>(parcels::block_subdividers().make(out.name, out.options));
   });
+  if (search != nullptr) {
+    out.search = parse_search(*search, where + ": search");
+    naming(where + ": search", [&] { expect_valid(*out.search, out.name, out.options); });
+  }
   return out;
 }
 
@@ -184,14 +116,6 @@ ExperimentConfig read_config(const std::string& file_or_name) {
   }
 }
 
-json options_json(const OptionMap& options) {
-  json object = json::object();
-  for (const auto& [key, value] : options) {
-    std::visit([&](const auto& v) { object[key] = v; }, value);
-  }
-  return object;
-}
-
 json to_json(const ExperimentConfig& config) {
   json out;
   out["experiment"] = config.experiment;
@@ -200,10 +124,12 @@ json to_json(const ExperimentConfig& config) {
   out["seed"] = config.seed;
   out["statistics"] = options_json(to_option_map(config.statistics));
   for (const StrategyConfig& s : config.strategies) {
-    out["strategies"].push_back({{"label", s.label},
-                                 {"name", s.name},
-                                 {"options", options_json(s.options)},
-                                 {"fit", s.fit == Fit::kNone ? "none" : "per_block"}});
+    json strategy{{"label", s.label},
+                  {"name", s.name},
+                  {"options", options_json(s.options)},
+                  {"fit", s.fit == Fit::kNone ? "none" : "per_block"}};
+    if (s.search) strategy["search"] = to_json(*s.search);
+    out["strategies"].push_back(std::move(strategy));
   }
   return out;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/options.h"
+#include "harness/search_config.h"
 #include "statistics/comparison.h"
 
 namespace plat::harness {
@@ -20,6 +22,7 @@ struct StrategyConfig {
   std::string name;   ///< in the registry of block subdividers
   OptionMap options;
   Fit fit = Fit::kPerBlock;
+  std::optional<SearchConfig> search = std::nullopt;  ///< options that are found, not given
 };
 
 /// What an experiment runs: data set x strategy[options] x repetition. The harness names no
@@ -42,9 +45,6 @@ ExperimentConfig parse_config(const nlohmann::json& json, const std::string& sou
 /// come with Plat
 /// (`experiments/<name>/config.json`).
 ExperimentConfig read_config(const std::string& file_or_name);
-
-/// Options as a JSON object.
-nlohmann::json options_json(const OptionMap& options);
 
 /// The config with every default filled in, as the manifest keeps it.
 nlohmann::json to_json(const ExperimentConfig& config);

@@ -3,7 +3,7 @@
 import base64
 
 from run_data import plots_word
-from tables import difference_table, distance_tables, escape, failure_table, overview_table
+from tables import difference_table, distance_tables, escape, failure_table, overview_table, search_table
 from verdict import measure_sentence, summary_sentences
 
 CSS = """
@@ -81,6 +81,10 @@ def dataset_html(run, dataset, figures, names):
                " ".join(escape(s) for s in summary_sentences(run, dataset)) + "</p><ul>" +
                "".join(f"<li>{escape(measure_sentence(run, dataset, m))}</li>" for m in run.measures) + "</ul></div>")
     out.append(overview_table(run, dataset))
+    if found := search_table(run, dataset):
+        out.append(found + "<p>Each part of the blocks is divided with the options that were best on the <em>other</em> "
+                   "blocks, so no searched option was chosen on what it is compared with. Score: mean of distance (KS) "
+                   "over noise floor.</p>")
 
     def section(title, key):
         if names.get(key):

@@ -24,6 +24,7 @@ TABLES = {
                     "p_value", "p_holm", "effect_size", "n_blocks"],
     "histograms": ["dataset", "measure", "layer", "bin_low", "bin_high", "count"],
 }
+SEARCH = ["dataset", "layer", "fold", "options", "is_chosen", "score", "measure", "blocks"]
 
 
 class Run:
@@ -36,6 +37,8 @@ class Run:
         self.manifest = self._read_manifest()
         for name, columns in TABLES.items():
             setattr(self, name, self._read_table(name, columns))
+        #: Runs of `plat compare` have no search.
+        self.search = self._read_table("search", SEARCH) if (self.folder / "search.csv").is_file() else None
         self.datasets = self.manifest["datasets"]
         self.strategies = [s["label"] for s in self.manifest["strategies"]]
         self.repetitions = max(1, int(self.manifest.get("repetitions", 1)))
@@ -63,7 +66,7 @@ class Run:
         path = self._need(f"{name}.csv")
         try:
             # Labels may read as numbers ("1") or as missing ("nan"): they are text.
-            text = {c: str for c in ("dataset", "layer", "layer_a", "layer_b", "message", "options", "status")}
+            text = {c: str for c in ("dataset", "layer", "layer_a", "layer_b", "message", "options", "status", "parcel_id")}
             table = pandas.read_csv(path, dtype=text, keep_default_na=False, na_values={
                 c: [""] for c in pandas.read_csv(path, nrows=0).columns if c not in text})
         except (ValueError, pandas.errors.ParserError) as error:

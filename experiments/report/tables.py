@@ -93,6 +93,20 @@ def difference_table(run, dataset, kind):
                  ["measure", "pair", "difference", "95 % interval", "p", "p (Holm)", "effect size", "closer"], body)
 
 
+def search_table(run, dataset):
+    """The options that were found, a row per strategy and fold."""
+    if run.search is None or run.of("search", dataset).empty:
+        return ""
+    rows = []
+    for (layer, fold), points in run.of("search", dataset).groupby(["layer", "fold"], sort=False):
+        chosen = points[points["is_chosen"] == 1].iloc[0]
+        rows.append([layer, f"{fold + 1}", chosen["options"].replace(";", ", "), number(chosen["score"]),
+                     number(points["score"].max()), f"{points['options'].nunique():,}", f"{chosen['blocks']:,}",
+                     ", ".join(name_of(m) for m in points["measure"].unique())])
+    return table(f"{short_title(dataset)}: options found by search, per part of the blocks",
+                 ["strategy", "part", "options", "score", "worst score", "points", "blocks searched", "score of"], rows)
+
+
 def failure_table(run, dataset):
     blocks = run.of("blocks", dataset)
     failed = blocks[(blocks["status"] != "ok") & (blocks["layer"] != OBSERVED)]

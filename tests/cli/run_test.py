@@ -15,12 +15,13 @@ CONFIG = {
         {"name": "obb"},
         {"name": "skeleton"},
         {"name": "voronoi", "label": "coarse", "options": {"area_mean_m2": 900}, "fit": "none"},
+        {"name": "voronoi", "label": "found", "search": {"options": {"rows": ["one", "two"], "row_offset_m": [1, 8]}}},
     ],
     "repetitions": 2,
     "seed": 11,
     "statistics": {"resamples": 50, "permutations": 200, "noise_repetitions": 20},
 }
-TABLES = ["parcels.csv", "blocks.csv", "distances.csv", "differences.csv", "histograms.csv"]
+TABLES = ["parcels.csv", "blocks.csv", "distances.csv", "differences.csv", "histograms.csv", "search.csv"]
 
 
 def contents(folder):
@@ -65,13 +66,13 @@ class Run(CliTest):
         part = self.path("part")
         shutil.copytree(whole, part)
         cells = sorted((part / "cells").iterdir())
-        self.assertEqual(len(cells), 6, "three strategies, two repetitions")
+        self.assertEqual(len(cells), 9, "four strategies, two repetitions, one search")
         cells[1].unlink()
         cells[2].write_text("{ half a cel")
         (part / "parcels.csv").unlink()
         (part / "manifest.json").unlink()
         result = plat("run", self.config, "--out", part, "--resume")
-        self.assertIn("4 cells taken over", result.stdout)
+        self.assertIn("7 cells taken over", result.stdout)
         self.assert_same(whole, part)
 
     def test_a_cell_of_another_seed_is_not_taken_over(self):
@@ -84,7 +85,7 @@ class Run(CliTest):
         folder = self.run_into("out")
         manifest = json.loads((folder / "manifest.json").read_text())
         self.assertEqual((manifest["seed"], manifest["repetitions"]), (11, 2))
-        self.assertEqual([s["label"] for s in manifest["strategies"]], ["obb", "skeleton", "coarse"])
+        self.assertEqual([s["label"] for s in manifest["strategies"]], ["obb", "skeleton", "coarse", "found"])
         for table in TABLES:
             self.assertTrue(rows_of(folder / table), table)
         city = manifest["datasets"][0]
@@ -92,7 +93,8 @@ class Run(CliTest):
         parcels = rows_of(folder / "parcels.csv")
         layout = folder / f"layout_{CITY}.gpkg"
         self.assertEqual(sum(r["layer"] == "observed" for r in parcels), city["parcels"])
-        for label, repetitions in (("observed", 1), ("obb", 2), ("skeleton", 2), ("coarse", 2)):
+        for label, repetitions in (("observed", 1), ("obb", 2), ("skeleton", 2), ("coarse", 2),
+                                   ("found", 2)):
             of_layer = [r for r in blocks if r["layer"] == label]
             self.assertEqual(len(of_layer), repetitions * city["blocks"])
             count = sum(int(r["parcels"]) for r in of_layer if r["status"] == "ok")
@@ -106,6 +108,25 @@ class Run(CliTest):
         folder = self.run_into("out")
         coarse = [r["options"] for r in rows_of(folder / "blocks.csv") if r["layer"] == "coarse"]
         self.assertTrue(all("area_mean_m2=900" in options for options in coarse))
+
+    def test_found_options_are_the_best_of_the_other_fold_and_the_ones_that_ran(self):
+        folder = self.run_into("out")
+        rows = rows_of(folder / "search.csv")
+        self.assertEqual(len(rows), 2 * 4 * 2, "folds, points, measures")
+        chosen = {}
+        for fold in ("0", "1"):
+            of_fold = [r for r in rows if r["fold"] == fold]
+            best = min(of_fold, key=lambda r: float(r["score"]))
+            chosen[fold] = {r["options"] for r in of_fold if r["is_chosen"] == "1"}
+            self.assertEqual(chosen[fold], {best["options"]})
+            ratios = [float(r["ks"]) / float(r["noise_mean"]) for r in of_fold if r["options"] == best["options"]]
+            self.assertAlmostEqual(float(best["score"]), sum(ratios) / len(ratios))
+        wanted = {frozenset(o.split(";")) for options in chosen.values() for o in options}
+        for row in rows_of(folder / "blocks.csv"):
+            if row["layer"] == "found":
+                self.assertTrue(any(w <= set(row["options"].split(";")) for w in wanted), row["options"])
+        city = json.loads((folder / "manifest.json").read_text())["datasets"][0]
+        self.assertEqual([(s["layer"], s["fold"]) for s in city["searches"]], [("found", 0), ("found", 1)])
 
     def test_an_interrupted_run_is_no_run(self):
         folder = self.run_into("out")

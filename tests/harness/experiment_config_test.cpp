@@ -85,6 +85,48 @@ TEST(ExperimentConfig, RefusesValuesOutOfRangeAndOfTheWrongType) {
                  {"snap_m", "0..50"});
 }
 
+TEST(ExperimentConfig, ReadsASearchAndWritesItBack) {
+  json config = minimal();
+  config["strategies"][0]["search"] = json::parse(
+      R"({"options": {"irregularity": [0, 0.5], "snap_m": [1]}, "measures": ["width_m"], "folds": 3})");
+  const json once = to_json(parse_config(config, "c.json"));
+  EXPECT_EQ(once, to_json(parse_config(once, "c.json")));
+  EXPECT_EQ(once["strategies"][0]["search"]["options"]["irregularity"], json::parse("[0.0, 0.5]"));
+  EXPECT_EQ(once["strategies"][0]["search"]["folds"], 3);
+  EXPECT_FALSE(to_json(parse_config(minimal(), "c.json"))["strategies"][0].contains("search"));
+}
+
+TEST(ExperimentConfig, RefusesASearchThatCannotBeMade) {
+  const auto expect_search_refused = [](const char* search,
+                                        std::initializer_list<const char*> words) {
+    const std::string patch =
+        R"({"strategies": [{"name": "obb", "options": {"street_access": 1}, "search": )" +
+        std::string(search) + "}]}";
+    expect_refused(patch.c_str(), words);
+  };
+  expect_search_refused("3", {"search", "JSON object"});
+  expect_search_refused("{}", {"\"options\"", "values to try"});
+  expect_search_refused(R"({"options": {}})", {"values to try"});
+  expect_search_refused(R"({"options": {"snap_m": 1}})", {"snap_m", "list of values"});
+  expect_search_refused(R"({"options": {"snap_m": []}})", {"snap_m", "list of values"});
+  expect_search_refused(R"({"options": {"snap_m": [1, 1]}})", {"snap_m", "twice"});
+  expect_search_refused(R"({"options": {"snap_m": [true]}})", {"a number or a text"});
+  expect_search_refused(R"({"options": {"snap": [1]}})", {"did you mean \"snap_m\""});
+  expect_search_refused(R"({"options": {"snap_m": [1, 1e9]}})", {"snap_m", "0..50"});
+  expect_search_refused(R"({"options": {"street_access": [0]}})", {"street_access", "also given"});
+  expect_search_refused(R"({"options": {"snap_m": [1]}, "fold": 2})", {"did you mean \"folds\""});
+  expect_search_refused(R"({"options": {"snap_m": [1]}, "folds": 1})", {"folds", "2..20"});
+  expect_search_refused(R"({"options": {"snap_m": [1]}, "measures": ["area_m"]})",
+                        {"unknown measure", "did you mean \"area_m2\""});
+  expect_search_refused(R"({"options": {"snap_m": [1]}, "measures": ["has_street_access"]})",
+                        {"unknown measure"});
+  expect_search_refused(R"({"options": {"snap_m": [1]}, "measures": []})", {"measures"});
+  json many = json::array();
+  for (int i = 0; i < 50; ++i) many.push_back(0.01 * i);
+  const json grid = {{"options", {{"irregularity", many}, {"snap_m", many}}}};
+  expect_search_refused(grid.dump().c_str(), {"more than 2000 points"});
+}
+
 TEST(ExperimentConfig, LabelsAreDistinctPlainAndNoLayersOfOurs) {
   expect_refused(R"({"strategies": [{"name": "obb"}, {"name": "obb"}]})", {"two strategies"});
   expect_refused(R"({"strategies": [{"name": "obb", "label": "a/b"}]})", {"letters"});

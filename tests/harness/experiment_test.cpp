@@ -64,6 +64,24 @@ TEST(RunExperiment, CellsOfOtherOptionsAreRunAgain) {
   EXPECT_EQ(second.resumed_cells, 2U);
 }
 
+TEST(RunExperiment, ASearchIsResumedWithTheBytesOfAWholeRun) {
+  PLAT_REAL_DATA_OR_SKIP(city, "prague_bubenec_cz/prague_bubenec_cz.gpkg");
+  const ScratchFolder folder;
+  const fs::path out = folder.file("run");
+  ExperimentConfig config = small_config();
+  config.repetitions = 1;
+  config.strategies[0].search = SearchConfig{};
+  config.strategies[0].search->options = {{"fit_deviations", {0.5, 2.0}}};
+  static_cast<void>(run_experiment(config, out, Jobs{2}, Resume::kNo));
+  const auto whole = contents(out);
+  EXPECT_TRUE(fs::remove(out / "cells" / "prague_bubenec_cz__obb__0.json"));
+  EXPECT_EQ(run_experiment(config, out, Jobs{1}, Resume::kYes).resumed_cells, 2U);
+  EXPECT_EQ(contents(out), whole);
+  config.strategies[0].search->options = {{"fit_deviations", {0.5, 1.0}}};
+  EXPECT_EQ(run_experiment(config, out, Jobs{1}, Resume::kYes).resumed_cells, 1U)
+      << "another grid is another search";
+}
+
 TEST(RunExperiment, MakesNoFolderForADataSetThatIsNotThere) {
   const ScratchFolder folder;
   ExperimentConfig config = small_config();
