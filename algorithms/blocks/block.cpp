@@ -1,5 +1,6 @@
 #include "blocks/block.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/failure.h"
@@ -10,17 +11,6 @@ const Ring& ring_at(const Block& block, std::size_t ring) {
   expects(ring <= block.contour.holes.size(), "ring in range");
   return ring == 0 ? block.contour.outer : block.contour.holes[ring - 1];
 }
-
-namespace {
-
-double turn_rad(const Ring& ring, std::size_t vertex) {
-  const std::size_t n = ring.size();
-  const Point in = ring[vertex] - ring[(vertex + n - 1) % n];
-  const Point out = ring[(vertex + 1) % n] - ring[vertex];
-  return std::atan2(cross(in, out), dot(in, out));
-}
-
-}  // namespace
 
 void assign_logical_streets(Block& block, const std::vector<std::vector<std::string>>& keys,
                             double same_street_turn_rad) {
@@ -61,6 +51,16 @@ Block block_from_contour(BlockId id, Polygon contour, double width_m, double sam
   for (const Ring& hole : block.contour.holes) block.edges.emplace_back(hole.size(), BlockEdge{});
   assign_logical_streets(block, {}, same_street_turn_rad);
   return block;
+}
+
+Block with_streets_assumed(const Block& block) {
+  for (const auto& ring : block.edges) {
+    if (std::any_of(ring.begin(), ring.end(), [](const BlockEdge& e) { return e.is_street(); }))
+      return block;
+  }
+  Block out = block;
+  out.edges = block_from_contour(block.id, block.contour).edges;
+  return out;
 }
 
 }  // namespace plat::blocks

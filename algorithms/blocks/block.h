@@ -48,6 +48,10 @@ struct Block {
 Block block_from_contour(BlockId id, Polygon contour, double width_m = 12.0,
                          double same_street_turn_rad = 0.5);
 
+/// The block, with every outer edge a street where no edge of it is one: a block about whose
+/// surroundings nothing is known.
+Block with_streets_assumed(const Block& block);
+
 /// Gives consecutive street edges of each ring the same logical street where they face the same one
 /// in `key` (equal, non-empty keys) or, lacking keys, turn by less than `same_street_turn_rad`.
 /// Renumbers from 0 along the rings.

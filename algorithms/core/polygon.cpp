@@ -58,6 +58,13 @@ Moment ring_moment(const Ring& ring, Point origin, double sign) {
 
 }  // namespace
 
+double turn_rad(std::span<const Point> ring, std::size_t vertex) {
+  const std::size_t n = ring.size();
+  const Point in = ring[vertex] - ring[(vertex + n - 1) % n];
+  const Point out = ring[(vertex + 1) % n] - ring[vertex];
+  return std::atan2(cross(in, out), dot(in, out));
+}
+
 Point centroid(const Polygon& polygon) {
   if (polygon.outer.empty()) return {};
   const Point origin = polygon.outer.front();

@@ -31,6 +31,9 @@ double perimeter_m(std::span<const Point> ring);
 /// Length of all rings, holes included, metres.
 double perimeter_m(const Polygon& polygon);
 
+/// The turn at a vertex, radians in (-pi, pi]: positive to the left.
+double turn_rad(std::span<const Point> ring, std::size_t vertex);
+
 /// Centre of mass of the region; the mean of the vertices where the area is zero.
 Point centroid(const Polygon& polygon);
 

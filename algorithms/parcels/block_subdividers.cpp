@@ -1,5 +1,10 @@
 #include "parcels/block_subdivider.h"
+#include "parcels/border_voronoi_subdivider.h"
+#include "parcels/cube_packing_subdivider.h"
+#include "parcels/min_box_subdivider.h"
 #include "parcels/obb_subdivider.h"
+#include "parcels/parish_mueller_subdivider.h"
+#include "parcels/recursive_subdivider.h"
 #include "parcels/skeleton_subdivider.h"
 #include "parcels/voronoi_subdivider.h"
 
@@ -11,6 +16,11 @@ const Registry<AnyBlockSubdivider>& block_subdividers() {
     all.add<VoronoiSubdivider>();
     all.add<SkeletonSubdivider>();
     all.add<ObbSubdivider>();
+    all.add<BorderVoronoiSubdivider>();
+    all.add<MinBoxSubdivider>();
+    all.add<CubePackingSubdivider>();
+    all.add<ParishMuellerSubdivider>();
+    all.add<RecursiveSubdivider>();
     return all;
   }();
   return kMenu;

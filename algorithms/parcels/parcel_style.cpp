@@ -45,4 +45,12 @@ Bounds bounds_around(double mean, double deviation, double k, double floor) {
   return {low, std::max(low, mean + half_range)};
 }
 
+LotSize mean_lot(const ParcelStyle& style) {
+  constexpr double kLeast_m = 0.5;
+  constexpr double kUndivided_m = 1e6;
+  if (style.count <= 1) return {kUndivided_m, kUndivided_m};
+  const double width = std::clamp(style.width_mean_m, kLeast_m, kUndivided_m);
+  return {width, std::clamp(style.area_mean_m2 / width, kLeast_m, kUndivided_m)};
+}
+
 }  // namespace plat::parcels

@@ -31,4 +31,12 @@ struct Bounds {
 };
 Bounds bounds_around(double mean, double deviation, double k, double floor);
 
+/// The observed lot as a rectangle: of the mean width, and as deep as the mean area makes it. In a
+/// block that was observed as one parcel, larger than any block.
+struct LotSize {
+  double width_m = 0.0;
+  double depth_m = 0.0;
+};
+LotSize mean_lot(const ParcelStyle& style);
+
 }  // namespace plat::parcels

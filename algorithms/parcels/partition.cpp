@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
+#include <set>
 #include <utility>
 
 namespace plat::parcels {
@@ -277,22 +277,26 @@ void BlockPartition::join(std::uint32_t region, std::uint32_t other) {
   region_areas_[region] += region_areas_[other];
 }
 
-void BlockPartition::join_slivers(double area_m2) {
+void BlockPartition::join_while(const std::function<bool(std::uint32_t)>& must_join) {
   using Entry = std::pair<double, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> smallest;
-  for (const std::uint32_t r : regions()) {
-    if (region_areas_[r] < area_m2) smallest.emplace(region_areas_[r], r);
-  }
-  while (!smallest.empty()) {
-    const auto [area, r] = smallest.top();
-    smallest.pop();
-    if (cells_of_region_[r].empty() || region_areas_[r] != area) continue;
-    const auto neighbour = longest_neighbour(r);
+  std::set<Entry> open;
+  const auto consider = [&](std::uint32_t region) {
+    if (must_join(region)) open.emplace(region_areas_[region], region);
+  };
+  for (const std::uint32_t region : regions()) consider(region);
+  while (!open.empty()) {
+    const std::uint32_t region = open.begin()->second;
+    open.erase(open.begin());
+    const auto neighbour = longest_neighbour(region);
     if (!neighbour) continue;
-    join(*neighbour, r);
-    if (region_areas_[*neighbour] < area_m2)
-      smallest.emplace(region_areas_[*neighbour], *neighbour);
+    open.erase({region_areas_[*neighbour], *neighbour});
+    join(*neighbour, region);
+    consider(*neighbour);
   }
+}
+
+void BlockPartition::join_slivers(double area_m2) {
+  join_while([&](std::uint32_t region) { return region_areas_[region] < area_m2; });
 }
 
 std::vector<Parcel> BlockPartition::parcels() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -63,6 +64,10 @@ class BlockPartition {
 
   /// Joins `other` into `region`, which keeps its number.
   void join(std::uint32_t region, std::uint32_t other);
+
+  /// Joins every region that `must_join` names to its longest neighbour, smallest first, until it
+  /// names none or only one region is left.
+  void join_while(const std::function<bool(std::uint32_t)>& must_join);
 
   /// Joins every region smaller than `area_m2`, smallest first, to its longest neighbour.
   void join_slivers(double area_m2);

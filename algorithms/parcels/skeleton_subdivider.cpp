@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "parcels/contour_simplification.h"
 #include "parcels/partition.h"
@@ -37,36 +36,6 @@ int corner_count(const Ring& ring) {
 
 bool is_triangular(const Polygon& polygon) {
   return polygon.holes.empty() && corner_count(polygon.outer) == 3;
-}
-
-/// Joins regions that `must_join` names to their longest neighbour, smallest first, until none is
-/// left or only one region is [VKW12, Sec. 4.2.3, last item].
-template <class MustJoin>
-void join_while(BlockPartition& partition, MustJoin must_join) {
-  using Entry = std::pair<double, std::uint32_t>;
-  std::set<Entry> open;
-  const auto consider = [&](std::uint32_t region) {
-    if (must_join(region)) open.emplace(partition.area_m2(region), region);
-  };
-  for (const std::uint32_t region : partition.regions()) consider(region);
-  while (!open.empty()) {
-    const auto [area, region] = *open.begin();
-    open.erase(open.begin());
-    const auto neighbour = partition.longest_neighbour(region);
-    if (!neighbour) continue;
-    open.erase({partition.area_m2(*neighbour), *neighbour});
-    partition.join(*neighbour, region);
-    consider(*neighbour);
-  }
-}
-
-/// Every outer edge a street where no edge is: a block about whose surroundings nothing is known.
-void assume_streets(blocks::Block& block) {
-  const auto is_street = [](const blocks::BlockEdge& e) { return e.is_street(); };
-  for (const auto& ring : block.edges) {
-    if (std::any_of(ring.begin(), ring.end(), is_street)) return;
-  }
-  block.edges = blocks::block_from_contour(block.id, block.contour).edges;
 }
 
 Expected<StripLayout> lay_out(const blocks::Block& block, double simplify_m, CornerScheme corners) {
@@ -114,8 +83,7 @@ tl::unexpected<Failure> lots_too_narrow(double front_m, double spacing_m) {
 
 Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block& given,
                                                             Rng& rng) const {
-  blocks::Block block = given;
-  assume_streets(block);
+  const blocks::Block block = blocks::with_streets_assumed(given);
   // Algorithm 1: computeSkeletonOffset, convertToStrip, mergeOnLogicalStreets, fixDiagonalEdges.
   auto layout = lay_out(block, options_.simplify_m, options_.corners);
   if (!layout) return tl::unexpected<Failure>(layout.error());
@@ -131,10 +99,10 @@ Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block&
   auto partition = BlockPartition::cut(block, cuts);
   if (!partition) return tl::unexpected<Failure>(partition.error());
   partition->join_slivers(kSliver_m2);
-  // processSmallLargeOrTriangularLots
+  // processSmallLargeOrTriangularLots, the last item of [VKW12, Sec. 4.2.3]
   const double triangle_max_m2 =
       0.5 * (options_.area_min_m2 + std::min(options_.area_max_m2, kUndivided_m2));
-  join_while(*partition, [&](std::uint32_t region) {
+  partition->join_while([&](std::uint32_t region) {
     const double area = partition->area_m2(region);
     return partition->frontage_m(region) < kStreetAccess_m || area < options_.area_min_m2 ||
            (area < triangle_max_m2 && is_triangular(partition->polygon(region)));

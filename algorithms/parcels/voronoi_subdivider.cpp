@@ -4,22 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/oriented_box.h"
 #include "core/working_grid.h"
-#include "parcels/partition.h"
-#include "parcels/voronoi_diagram.h"
+#include "parcels/random_divisions.h"
+#include "parcels/voronoi_partition.h"
 
 namespace plat::parcels {
 namespace {
 
 using Rows = VoronoiSubdivider::Rows;
-
-/// Spacings are kept within this factor of their mean, so that sites keep their order along the
-/// axis.
-constexpr double kMinSpacingShare = 0.25;
-constexpr double kMaxSpacingShare = 4.0;
 
 /// The parts of the long axis of the block's box that lie inside the block.
 class Axis {
@@ -68,22 +62,11 @@ int choose_rows(const VoronoiSubdivider::Options& options, const OrientedBox& bo
   return misfit(2.0) < misfit(1.0) ? 2 : 1;
 }
 
-/// `count` positions along the axis, spaced d + epsilon, epsilon ~ N(0, sigma_b^2), filling its
-/// length.
+/// The middles of `count` spacings d + epsilon, epsilon ~ N(0, sigma_b^2), that fill the axis.
 std::vector<double> sample_axis(double length_m, int count, double relative_deviation, Rng& rng) {
-  std::vector<double> spacing;
-  double sum = 0.0;
-  for (int i = 0; i < count; ++i) {
-    spacing.push_back(
-        std::clamp(rng.normal(1.0, relative_deviation), kMinSpacingShare, kMaxSpacingShare));
-    sum += spacing.back();
-  }
+  const std::vector<double> ends = random_divisions(length_m, count, relative_deviation, rng);
   std::vector<double> out;
-  double at = 0.0;
-  for (const double s : spacing) {
-    out.push_back((at + 0.5 * s) * length_m / sum);
-    at += s;
-  }
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) out.push_back(0.5 * (ends[i] + ends[i + 1]));
   return out;
 }
 
@@ -101,7 +84,7 @@ std::vector<Point> place_sites(const VoronoiSubdivider::Options& options,
   const Point offset = rows == 1 ? Point{} : options.row_offset_m * perpendicular(box.axis);
   std::vector<Point> sites;
   const std::vector<double> positions = sample_axis(axis.length_m(), left, relative, rng);
-  for (const double s : positions) sites.push_back(snap(axis.at(s) + offset));
+  for (const double s : positions) sites.push_back(axis.at(s) + offset);
   if (rows == 2) {
     // Copies on the other side [AVB08]; with one parcel less, the copies are spread over the same
     // length.
@@ -110,31 +93,10 @@ std::vector<Point> place_sites(const VoronoiSubdivider::Options& options,
       const double s = right == left ? positions[static_cast<std::size_t>(i)]
                                      : 0.5 * (positions[static_cast<std::size_t>(i)] +
                                               positions[static_cast<std::size_t>(i) + 1]);
-      sites.push_back(snap(axis.at(s) - offset));
+      sites.push_back(axis.at(s) - offset);
     }
   }
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
   return sites;
-}
-
-/// Cells without a site are parts of a Voronoi cell that the contour cuts off.
-void join_cells_without_site(BlockPartition& partition, const std::vector<Point>& sites) {
-  std::vector<std::uint32_t> open;
-  for (const std::uint32_t r : partition.regions()) {
-    const Polygon polygon = partition.polygon(r);
-    const Box box = box_of(polygon);
-    const bool has_site = std::any_of(sites.begin(), sites.end(), [&](Point p) {
-      return box.contains(p) && locate(polygon, p) == Side::kInside;
-    });
-    if (!has_site) open.push_back(r);
-  }
-  if (open.size() == partition.cell_count())
-    open.erase(open.begin());  // no site inside at all: keep one parcel
-  // Joining to another part without a site is allowed; that one is joined in its turn.
-  for (const std::uint32_t r : open) {
-    if (const auto neighbour = partition.longest_neighbour(r)) partition.join(*neighbour, r);
-  }
 }
 
 }  // namespace
@@ -145,17 +107,8 @@ Expected<std::vector<Parcel>> VoronoiSubdivider::subdivide(const blocks::Block& 
     return fail(FailureCode::kNoConvergence,
                 fmt::format("more than {} parcels: raise area_mean_m2", kMaxLotsPerBlock));
   }
-  const std::vector<Point> sites = place_sites(options_, block, rng);
-  std::vector<Segment> cuts;
-  if (sites.size() > 1) {
-    Box window = box_of(block.contour).expanded(1.0);
-    for (const Point p : sites) window.add(p);
-    for (const VoronoiEdge& edge : voronoi_edges(sites, window)) cuts.push_back(edge.segment);
-  }
-  auto partition = BlockPartition::cut(block, cuts);
-  if (!partition) return tl::unexpected<Failure>(partition.error());
-  join_cells_without_site(*partition, sites);
-  return partition->parcels();
+  return partition_by_sites(block, place_sites(options_, block, rng))
+      .map([](const BlockPartition& partition) { return partition.parcels(); });
 }
 
 VoronoiSubdivider VoronoiSubdivider::fitted(const ParcelStyle& style) const {

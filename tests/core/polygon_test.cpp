@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/validity.h"
 #include "core/working_grid.h"
@@ -22,6 +23,12 @@ TEST(Polygon, AreaAndPerimeterTakeHolesIntoAccount) {
 TEST(Polygon, AreaKeepsItsDigitsFarFromTheOrigin) {
   const Point far{1048576.0, -1048576.0};
   EXPECT_EQ(signed_area_m2(Ring{far, far + Point{0.5, 0}, far + Point{0.5, 0.25}}), 0.0625);
+}
+
+TEST(Polygon, TurnIsPositiveToTheLeft) {
+  EXPECT_DOUBLE_EQ(turn_rad(kFrame.outer, 0), 0.5 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(turn_rad(kFrame.holes[0], 3), -0.5 * std::numbers::pi);
+  EXPECT_EQ(turn_rad(Ring{{0, 0}, {1, 0}, {2, 0}, {1, 1}}, 1), 0.0);
 }
 
 TEST(Polygon, CentroidTakesHolesIntoAccount) {

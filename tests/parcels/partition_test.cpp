@@ -166,6 +166,26 @@ TEST(BlockPartition, SliversJoinTheirLongestNeighbourSmallestFirst) {
   expect_coverage(block, partition);
 }
 
+TEST(BlockPartition, JoinWhileGoesOnUntilNoRegionIsNamed) {
+  const blocks::Block block = rectangle_block(100, 10);
+  const Segment cuts[] = {{{10, 0}, {10, 10}}, {{30, 0}, {30, 10}}, {{60, 0}, {60, 10}}};
+  BlockPartition partition = BlockPartition::cut(block, cuts).value();
+  partition.join_while([&](std::uint32_t region) { return partition.area_m2(region) < 350.0; });
+  // 100 joins 200, the sum joins 300; 400 is not named.
+  std::vector<double> areas;
+  for (const std::uint32_t region : partition.regions()) areas.push_back(partition.area_m2(region));
+  std::sort(areas.begin(), areas.end());
+  EXPECT_EQ(areas, (std::vector{400.0, 600.0}));
+}
+
+TEST(BlockPartition, JoinWhileLeavesTheLastRegion) {
+  const blocks::Block block = rectangle_block(100, 10);
+  const Segment cuts[] = {{{10, 0}, {10, 10}}, {{30, 0}, {30, 10}}};
+  BlockPartition partition = BlockPartition::cut(block, cuts).value();
+  partition.join_while([](std::uint32_t) { return true; });
+  EXPECT_EQ(partition.regions().size(), 1U);
+}
+
 TEST(BlockPartition, CourtyardIsNobodys) {
   blocks::Block block = blocks::block_from_contour(
       BlockId{},
