@@ -1,33 +1,13 @@
-#include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "command.h"
 #include "core/failure.h"
 #include "harness/build_info.h"
+#include "python_script.h"
 
 namespace plat::cli {
-namespace {
-
-/// Runs a program without a shell, so that no path needs quoting. @returns its exit status
-int run_program(const std::filesystem::path& program, const std::filesystem::path& script,
-                const std::string& argument) {
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(program.c_str(), program.c_str(), script.c_str(), argument.c_str(),
-          static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0)
-    throw InputError("the report's Python could not be started");
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-}
-
-}  // namespace
 
 void add_report_command(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
@@ -48,11 +28,7 @@ void add_report_command(CLI::App& app, Action& action) {
         throw InputError(
             *folder + "/manifest.json: missing: not a folder that plat run or plat compare wrote");
       }
-      const int status = run_program(PLAT_PYTHON, script, *folder);
-      if (status == 127)
-        throw InputError(std::string(PLAT_PYTHON) +
-                         ": not found: apt install python3-matplotlib python3-geopandas");
-      return status == 0 ? kDone : kBadInput;
+      return run_python(script, std::vector{*folder}) == 0 ? kDone : kBadInput;
     };
   });
 }

@@ -10,6 +10,7 @@
 #include "harness/block_reading.h"
 #include "harness/city_layers.h"
 #include "harness/subdivision.h"
+#include "harness/trace_layers.h"
 #include "output_file.h"
 
 namespace plat::cli {
@@ -24,6 +25,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   Jobs jobs;
   std::string out;
+  std::string trace;
 };
 
 harness::StrategyConfig strategy_of(const Arguments& args) {
@@ -42,6 +44,8 @@ harness::StrategyConfig strategy_of(const Arguments& args) {
 ExitStatus run(const Arguments& args) {
   const harness::StrategyConfig strategy = strategy_of(args);
   expect_output(args.out, {args.blocks, args.streets, args.observed});
+  if (!args.trace.empty())
+    expect_output(args.trace, {args.blocks, args.streets, args.observed, args.out});
   harness::ReadBlocks read =
       harness::read_blocks(geodata::parse_layer_source(args.blocks), args.jobs);
   harness::label_from_streets(read, args.streets, args.jobs);
@@ -49,9 +53,10 @@ ExitStatus run(const Arguments& args) {
   if (!args.observed.empty())
     styles = harness::observed_styles(read, geodata::parse_layer_source(args.observed));
 
+  std::vector<parcels::SubdivisionTrace> traces(args.trace.empty() ? 0 : read.blocks.size());
   Progress progress(args.strategy, read.blocks.size());
   const std::vector<harness::DividedBlock> divided = harness::subdivide_blocks(
-      read.blocks, strategy, styles, "subdivide", args.seed, 0, args.jobs, progress);
+      read.blocks, strategy, styles, "subdivide", args.seed, 0, args.jobs, progress, traces);
 
   harness::ParcelLayer parcels("parcels", read.frame);
   parcels.add(divided, 0, args.strategy);
@@ -67,6 +72,8 @@ ExitStatus run(const Arguments& args) {
   const std::vector<geodata::Layer> layers{
       parcels.layer(), harness::block_layer(read.blocks, read.frame), failures.layer()};
   geodata::write_layers(args.out, layers);
+  if (!args.trace.empty())
+    geodata::write_layers(args.trace, harness::trace_layers(read.blocks, traces, read.frame));
   fmt::print("{}: {} parcels in {} blocks, {} failures\n", args.out,
              parcels.layer().features.size(), read.blocks.size(), failures.layer().features.size());
   return failures.layer().features.empty() ? kDone : kFinishedWithFailures;
@@ -103,6 +110,9 @@ void add_subdivide_command(CLI::App& app, Action& action) {
                    "GeoPackage to write: layers parcels (block and parcel id, strategy, measures), "
                    "blocks (block id, the input feature it was) and failures")
       ->required();
+  command->add_option("--trace", args->trace,
+                      "GeoPackage to write as well: inner steps of the strategy, where it shows "
+                      "them. obb: lot_boxes and splits, numbered by depth");
   command->footer(
       "Example:\n  plat subdivide --blocks city.gpkg:blocks --streets city.gpkg:streets --strategy "
       "obb \\\n"

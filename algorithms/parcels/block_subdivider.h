@@ -12,6 +12,7 @@
 #include "core/rng.h"
 #include "parcels/parcel.h"
 #include "parcels/parcel_style.h"
+#include "parcels/subdivision_trace.h"
 
 namespace plat::parcels {
 
@@ -31,6 +32,16 @@ concept BlockSubdivider =
       { subdivider.fitted(style) } -> std::same_as<S>;
     };
 
+/// A strategy that shows its inner steps.
+///
+/// Contract, tested over the registry: the parcels are those that it makes when nobody watches.
+template <class S>
+concept TracedBlockSubdivider =
+    BlockSubdivider<S> &&
+    requires(const S& subdivider, const blocks::Block& block, Rng& rng, SubdivisionTrace& trace) {
+      { subdivider.subdivide(block, rng, trace) } -> std::same_as<Expected<std::vector<Parcel>>>;
+    };
+
 /// Any strategy of the family, chosen at run time.
 class AnyBlockSubdivider {
  public:
@@ -43,6 +54,11 @@ class AnyBlockSubdivider {
                                                         Rng& rng) const {
     return self_->subdivide(block, rng);
   }
+  /// The same, inner steps kept in `trace`; a strategy that shows none leaves it as it is.
+  [[nodiscard]] Expected<std::vector<Parcel>> subdivide(const blocks::Block& block, Rng& rng,
+                                                        SubdivisionTrace& trace) const {
+    return self_->subdivide(block, rng, trace);
+  }
   [[nodiscard]] AnyBlockSubdivider fitted(const ParcelStyle& style) const {
     return self_->fitted(style);
   }
@@ -54,6 +70,8 @@ class AnyBlockSubdivider {
     virtual ~Interface() = default;
     [[nodiscard]] virtual Expected<std::vector<Parcel>> subdivide(const blocks::Block&,
                                                                   Rng&) const = 0;
+    [[nodiscard]] virtual Expected<std::vector<Parcel>> subdivide(const blocks::Block&, Rng&,
+                                                                  SubdivisionTrace&) const = 0;
     [[nodiscard]] virtual AnyBlockSubdivider fitted(const ParcelStyle&) const = 0;
     [[nodiscard]] virtual std::string_view name() const = 0;
     [[nodiscard]] virtual OptionMap options() const = 0;
@@ -65,6 +83,11 @@ class AnyBlockSubdivider {
                                                           Rng& rng) const override {
       return subdivider.subdivide(block, rng);
     }
+    [[nodiscard]] Expected<std::vector<Parcel>> subdivide(const blocks::Block& block, Rng& rng,
+                                                          SubdivisionTrace& trace) const override {
+      if constexpr (TracedBlockSubdivider<S>) return subdivider.subdivide(block, rng, trace);
+      return subdivider.subdivide(block, rng);
+    }
     [[nodiscard]] AnyBlockSubdivider fitted(const ParcelStyle& style) const override {
       return AnyBlockSubdivider(subdivider.fitted(style));
     }
@@ -74,7 +97,7 @@ class AnyBlockSubdivider {
   };
   std::shared_ptr<const Interface> self_;
 };
-static_assert(BlockSubdivider<AnyBlockSubdivider>);
+static_assert(TracedBlockSubdivider<AnyBlockSubdivider>);
 
 /// The menu of block subdivision strategies.
 const Registry<AnyBlockSubdivider>& block_subdividers();

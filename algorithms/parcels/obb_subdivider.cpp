@@ -11,6 +11,8 @@ namespace {
 
 /// How near the ends of the box's longer side a split may come, as a share of that side.
 constexpr double kEndMargin = 0.1;
+/// Which options to change where the lots become too many.
+constexpr std::string_view kRemedy = "area_max_m2 or width_max_m";
 
 /// Algorithm 2, recSubdivOBB(l), one step of it.
 class ObbRule {
@@ -85,9 +87,19 @@ class ObbRule {
 }  // namespace
 
 Expected<std::vector<Parcel>> ObbSubdivider::subdivide(const blocks::Block& block, Rng& rng) const {
-  return divide_recursively(block, rng(), ObbRule(options_), "area_max_m2 or width_max_m")
+  return divide_recursively(block, rng(), ObbRule(options_), kRemedy)
       .map([](const BlockPartition& partition) { return partition.parcels(); });
 }
+
+template <SubdivisionVisitor Visitor>
+Expected<std::vector<Parcel>> ObbSubdivider::subdivide(const blocks::Block& block, Rng& rng,
+                                                       Visitor& visitor) const {
+  return divide_recursively(block, rng(), ObbRule(options_), kRemedy, visitor)
+      .map([](const BlockPartition& partition) { return partition.parcels(); });
+}
+
+template Expected<std::vector<Parcel>> ObbSubdivider::subdivide(const blocks::Block&, Rng&,
+                                                                SubdivisionTrace&) const;
 
 ObbSubdivider ObbSubdivider::fitted(const ParcelStyle& style) const {
   Options o = options_;

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "parcels/block_subdivider.h"
+#include "parcels/subdivision_trace.h"
 
 namespace plat::parcels {
 
@@ -63,6 +64,11 @@ class ObbSubdivider {
   explicit ObbSubdivider(const Options& options) : options_(options) {}
 
   [[nodiscard]] Expected<std::vector<Parcel>> subdivide(const blocks::Block& block, Rng& rng) const;
+  /// The same parcels, every split shown: kLotBox and kSplit, numbered by the depth of the
+  /// recursion.
+  template <SubdivisionVisitor Visitor>
+  [[nodiscard]] Expected<std::vector<Parcel>> subdivide(const blocks::Block& block, Rng& rng,
+                                                        Visitor& visitor) const;
   [[nodiscard]] ObbSubdivider fitted(const ParcelStyle& style) const;
   [[nodiscard]] const Options& options() const { return options_; }
 

@@ -9,6 +9,7 @@
 #include "core/failure.h"
 #include "parcels/lot.h"
 #include "parcels/partition.h"
+#include "parcels/subdivision_trace.h"
 
 namespace plat::parcels {
 
@@ -24,6 +25,13 @@ using SplitRule = std::function<std::optional<SplitResult>(const Lot& lot, std::
 /// @returns       Failure kNoConvergence beyond kMaxLotsPerBlock lots
 Expected<BlockPartition> divide_recursively(const blocks::Block& block, std::uint64_t seed,
                                             const SplitRule& rule, std::string_view remedy);
+
+/// The same, every split shown: kLotBox and kSplit, numbered by the depth of the recursion.
+/// Instantiated for SubdivisionTrace.
+template <SubdivisionVisitor Visitor>
+Expected<BlockPartition> divide_recursively(const blocks::Block& block, std::uint64_t seed,
+                                            const SplitRule& rule, std::string_view remedy,
+                                            Visitor& visitor);
 
 bool has_street_access(const Lot& lot);
 

@@ -22,7 +22,9 @@ std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks
                                            const StrategyConfig& strategy,
                                            std::span<const parcels::ParcelStyle> styles,
                                            std::string_view dataset, std::uint64_t seed,
-                                           int repetition, Jobs jobs, Progress& progress) {
+                                           int repetition, Jobs jobs, Progress& progress,
+                                           std::span<parcels::SubdivisionTrace> traces) {
+  expects(traces.empty() || traces.size() == blocks.size(), "one trace per block");
   expects(styles.empty() || styles.size() == blocks.size(), "one style per block");
   const std::uint64_t dataset_key = seed_key(dataset);
   return parallel_map<DividedBlock>(blocks.size(), jobs, [&](std::size_t i) {
@@ -42,7 +44,8 @@ std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks
     const parcels::AnyBlockSubdivider subdivider = strategy_for(strategy, style);
     out.options = subdivider.options();
     Rng rng(out.seed);
-    out.parcels = subdivider.subdivide(block, rng);
+    out.parcels = traces.empty() ? subdivider.subdivide(block, rng)
+                                 : subdivider.subdivide(block, rng, traces[i]);
     if (out.parcels) {
       if (auto defect = parcels::find_coverage_defect(block.contour, *out.parcels,
                                                       parcels::kContourTolerance_m)) {

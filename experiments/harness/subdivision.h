@@ -30,10 +30,12 @@ struct DividedBlock {
 /// not depend on the thread count.
 /// @param styles  one per block to fit the options to, or empty; a style of no parcels is a failure
 /// kNoObservation
+/// @param traces  one per block, to be filled with the inner steps, or empty
 std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks,
                                            const StrategyConfig& strategy,
                                            std::span<const parcels::ParcelStyle> styles,
                                            std::string_view dataset, std::uint64_t seed,
-                                           int repetition, Jobs jobs, Progress& progress);
+                                           int repetition, Jobs jobs, Progress& progress,
+                                           std::span<parcels::SubdivisionTrace> traces = {});
 
 }  // namespace plat::harness

@@ -126,10 +126,10 @@ def frame_axes(axes, bounds):
 def draw_map(figures, run, dataset, layout, measure, bounds, name, scope):
     """One panel per layer; `scope` says what part is shown."""
     layers = [OBSERVED, *run.strategies]
-    columns = 2 if len(layers) <= 4 else 3
+    columns = 2
     rows = math.ceil(len(layers) / columns)
     shape = (bounds[3] - bounds[1]) / (bounds[2] - bounds[0])
-    panel = 5.2 if columns == 2 else 3.9
+    panel = 5.2
     height = min(max(panel * shape, 2.2), 7.0)
     figure, grid = plt.subplots(rows, columns, figsize=(columns * panel + 1.0, rows * (height + 0.35) + 0.6),
                                 layout="constrained", squeeze=False)
@@ -151,12 +151,12 @@ def draw_map(figures, run, dataset, layout, measure, bounds, name, scope):
     mappable = ScalarMappable(colouring.norm, colouring.cmap)
     bar = figure.colorbar(mappable, ax=grid, shrink=0.5, aspect=30, extend=colouring.extend, pad=0.02)
     bar.set_label(title_of(measure))
-    _label_colour_bar(bar, colouring)
+    label_colour_bar(bar, colouring)
     figure.suptitle(f"{short_title(dataset)}: {name_of(measure)}, {plots_word(dataset)} and strategies, {scope}")
     figures.save(figure, name)
 
 
-def _label_colour_bar(bar, colouring):
+def label_colour_bar(bar, colouring):
     if colouring.measure == "neighbours":
         ticks = [int(b + 0.5) for b in colouring.norm.boundaries[:-1]]
     elif colouring.measure == "area_m2":

@@ -18,6 +18,7 @@ COMMANDS = {
     ("compare",): ["observed", "generated", "--out", "FILE[:layer]", "--seed", "--jobs"],
     ("run",): ["config", "--out", "--data", "--seed", "--jobs", "--resume"],
     ("report",): ["dir", "report.html"],
+    ("figure",): ["names", "--list", "--out", "PLAT_DATA_DIR"],
 }
 
 
