@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -11,14 +13,20 @@ namespace plat::cli {
 
 void add_report_command(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
+  auto worst = std::make_shared<int>(6);
   CLI::App* command = app.add_subcommand(
       "report", "Make report.html and figures/*.{pdf,png} from what a run wrote");
   command->add_option("dir", *folder, "folder that plat run or plat compare wrote")->required();
+  command
+      ->add_option("--worst", *worst,
+                   "blocks to show, observed beside generated, where each strategy is farthest off")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 200));
   command->footer(
       "Example:\n  plat report out/cambridge\nExit status: 0 done, 2 bad input (a file of the run "
       "is missing).");
-  command->callback([folder, &action] {
-    action = [folder]() -> ExitStatus {
+  command->callback([folder, worst, &action] {
+    action = [folder, worst]() -> ExitStatus {
       const std::filesystem::path script =
           harness::experiments_folder() / "report" / "make_report.py";
       if (!std::filesystem::exists(script))
@@ -28,7 +36,8 @@ void add_report_command(CLI::App& app, Action& action) {
         throw InputError(
             *folder + "/manifest.json: missing: not a folder that plat run or plat compare wrote");
       }
-      return run_python(script, std::vector{*folder}) == 0 ? kDone : kBadInput;
+      const std::vector arguments{*folder, std::string("--worst"), fmt::format("{}", *worst)};
+      return run_python(script, arguments) == 0 ? kDone : kBadInput;
     };
   });
 }

@@ -136,12 +136,16 @@ Contacts find_contacts(const std::vector<Edge>& edges) {
   return out;
 }
 
-void count_neighbours(std::vector<Shared> shared, std::vector<ParcelMeasures>& measures) {
+using NeighbourPair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Pairs of parcels with enough common boundary, sorted.
+std::vector<NeighbourPair> neighbour_pairs(std::vector<Shared> shared) {
   std::sort(shared.begin(), shared.end(), [](const Shared& a, const Shared& b) {
     if (a.first != b.first) return a.first < b.first;
     if (a.second != b.second) return a.second < b.second;
     return a.length_m < b.length_m;  // sums must not depend on the order of the parcels
   });
+  std::vector<NeighbourPair> pairs;
   for (std::size_t i = 0; i < shared.size();) {
     double sum = 0.0;
     std::size_t j = i;
@@ -149,12 +153,10 @@ void count_neighbours(std::vector<Shared> shared, std::vector<ParcelMeasures>& m
            shared[j].second == shared[i].second;
          ++j)
       sum += shared[j].length_m;
-    if (sum >= kSharedLength_m) {
-      ++measures[shared[i].first].neighbours;
-      ++measures[shared[i].second].neighbours;
-    }
+    if (sum >= kSharedLength_m) pairs.emplace_back(shared[i].first, shared[i].second);
     i = j;
   }
+  return pairs;
 }
 
 /// Where several street edges face the same part of a parcel's edge, that part counts once.
@@ -214,10 +216,38 @@ std::vector<ParcelMeasures> measure_parcels(const blocks::Block& block,
   for (const Polygon& parcel : parcels) measures.push_back(measure_shape(parcel));
   const std::vector<Edge> edges = sorted_edges(block, parcels);
   Contacts contacts = find_contacts(edges);
-  count_neighbours(std::move(contacts.shared), measures);
+  for (const auto& [first, second] : neighbour_pairs(std::move(contacts.shared))) {
+    ++measures[first].neighbours;
+    ++measures[second].neighbours;
+  }
   add_frontage(std::move(contacts.fronting), edges, measures);
   for (ParcelMeasures& m : measures) m.has_street_access = m.frontage_m >= kStreetAccess_m;
   return measures;
+}
+
+std::vector<int> parcel_rows(const blocks::Block& block, std::span<const Polygon> parcels) {
+  const std::vector<Edge> edges = sorted_edges(block, parcels);
+  Contacts contacts = find_contacts(edges);
+  std::vector<ParcelMeasures> measures(parcels.size());
+  add_frontage(std::move(contacts.fronting), edges, measures);
+  const std::vector<NeighbourPair> pairs = neighbour_pairs(std::move(contacts.shared));
+  std::vector<int> rows(parcels.size(), 0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = measures[i].frontage_m >= kStreetAccess_m ? 1 : 0;
+  // Row after row; a block has few.
+  for (int row = 1, added = 1; added > 0; ++row) {
+    added = 0;
+    const auto place_behind = [&](std::uint32_t front, std::uint32_t behind) {
+      if (rows[front] != row || rows[behind] != 0) return;
+      rows[behind] = row + 1;
+      ++added;
+    };
+    for (const auto& [first, second] : pairs) {
+      place_behind(first, second);
+      place_behind(second, first);
+    }
+  }
+  return rows;
 }
 
 std::span<const MeasureColumn> measure_columns() {

@@ -49,6 +49,10 @@ inline constexpr double kCornerTurn_deg = 10.0;
 std::vector<ParcelMeasures> measure_parcels(const blocks::Block& block,
                                             std::span<const Polygon> parcels);
 
+/// The row of each parcel: 1 with street access, 2 for the neighbours of those behind, and so on; 0
+/// where no street is reached over neighbours. Neighbours and access are those of measure_parcels.
+std::vector<int> parcel_rows(const blocks::Block& block, std::span<const Polygon> parcels);
+
 enum class MeasureKind : std::uint8_t {
   kContinuous,
   kInteger,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/oriented_box.h"
+#include "parcels/parcel_measures.h"
 
 namespace plat::parcels {
 namespace {
@@ -27,16 +27,39 @@ Moments moments(std::span<const double> values) {
 
 }  // namespace
 
-ParcelStyle style_of(std::span<const Polygon> parcels) {
+ParcelStyle style_of(const blocks::Block& block, std::span<const Polygon> parcels) {
+  ParcelStyle style;
+  style.count = parcels.size();
+  if (parcels.empty()) return style;
   std::vector<double> areas;
   std::vector<double> widths;
-  for (const Polygon& p : parcels) {
-    areas.push_back(area_m2(p));
-    widths.push_back(minimum_area_box(p).width_m);
+  std::vector<double> aspect_ratios;
+  double with_access = 0.0;
+  double area_with_access_m2 = 0.0;
+  for (const ParcelMeasures& m : measure_parcels(block, parcels)) {
+    areas.push_back(m.area_m2);
+    widths.push_back(m.width_m);
+    aspect_ratios.push_back(m.aspect_ratio);
+    if (!m.has_street_access) continue;
+    with_access += 1.0;
+    area_with_access_m2 += m.area_m2;
   }
   const Moments area = moments(areas);
   const Moments width = moments(widths);
-  return {parcels.size(), area.mean, area.deviation, width.mean, width.deviation};
+  const auto count = static_cast<double>(parcels.size());
+  style.area_mean_m2 = area.mean;
+  style.area_deviation_m2 = area.deviation;
+  style.width_mean_m = width.mean;
+  style.width_deviation_m = width.deviation;
+  style.aspect_ratio_mean = moments(aspect_ratios).mean;
+  style.access_share_01 = with_access / count;
+  style.access_area_01 = std::min(1.0, area_with_access_m2 / (area.mean * count));
+  std::vector<double> rows;
+  for (const int row : parcel_rows(block, parcels)) {
+    if (row > 0) rows.push_back(static_cast<double>(row));
+  }
+  style.rows_mean = moments(rows).mean;
+  return style;
 }
 
 Bounds bounds_around(double mean, double deviation, double k, double floor) {

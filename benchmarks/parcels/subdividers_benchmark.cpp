@@ -23,8 +23,10 @@ const std::vector<Job>& cambridge() {
     std::vector<Job> out;
     if (!testing::data_file("cambridge_ma/cambridge_ma.gpkg")) return out;
     for (harness::ObservedBlock& observed :
-         harness::load_city(geodata::dataset("cambridge_ma")).blocks)
-      out.push_back({std::move(observed.block), parcels::style_of(observed.parcels)});
+         harness::load_city(geodata::dataset("cambridge_ma")).blocks) {
+      const parcels::ParcelStyle style = parcels::style_of(observed.block, observed.parcels);
+      out.push_back({std::move(observed.block), style});
+    }
     return out;
   }();
   return kJobs;

@@ -65,10 +65,10 @@ std::vector<parcels::ParcelStyle> observed_styles(const ReadBlocks& read,
     shapes.push_back(std::move(parcel.shape));
   const blocks::BlockAssignment homes = blocks::assign_to_blocks(read.blocks, shapes);
   std::vector<parcels::ParcelStyle> styles;
-  for (const std::vector<std::uint32_t>& inside : homes.of_block) {
-    std::vector<Polygon> of_block;
-    for (const std::uint32_t i : inside) of_block.push_back(shapes[i]);
-    styles.push_back(parcels::style_of(of_block));
+  for (std::size_t b = 0; b < read.blocks.size(); ++b) {
+    std::vector<Polygon> inside;
+    for (const std::uint32_t i : homes.of_block[b]) inside.push_back(shapes[i]);
+    styles.push_back(parcels::style_of(read.blocks[b], inside));
   }
   return styles;
 }

@@ -117,7 +117,8 @@ std::uint64_t input_digest(std::span<const blocks::Block> blocks,
   for (const parcels::ParcelStyle& style : styles) {
     digest.add(std::uint64_t{style.count});
     for (const double value :
-         {style.area_mean_m2, style.area_deviation_m2, style.width_mean_m, style.width_deviation_m})
+         {style.area_mean_m2, style.area_deviation_m2, style.width_mean_m, style.width_deviation_m,
+          style.aspect_ratio_mean, style.access_share_01, style.access_area_01, style.rows_mean})
       digest.add(value);
   }
   return digest.value();

@@ -49,10 +49,10 @@ class DatasetRun {
         watch_(watch),
         city_(load_city(dataset, jobs)) {
     watch_.lap("read " + dataset.name);
-    for (const ObservedBlock& observed : city_.blocks) {
-      blocks_.push_back(observed.block);
-      styles_.push_back(parcels::style_of(observed.parcels));
-    }
+    for (const ObservedBlock& observed : city_.blocks) blocks_.push_back(observed.block);
+    styles_ = parallel_map<parcels::ParcelStyle>(blocks_.size(), jobs, [&](std::size_t i) {
+      return parcels::style_of(blocks_[i], city_.blocks[i].parcels);
+    });
     observed_.label = "observed";
     observed_.per_block = parallel_map<std::vector<parcels::ParcelMeasures>>(
         city_.blocks.size(), jobs, [&](std::size_t i) {
@@ -205,7 +205,7 @@ class DatasetRun {
         tables.add_parcel(dataset_.name, label, repetition, block.block,
                           fmt::format("{}", parcel.id.value), block.measures[k]);
       }
-      row.style = parcels::style_of(shapes);
+      row.style = parcels::style_of(blocks_[i], shapes);
       row.ks_area = area_ks(observed_.per_block[i], block.measures);
     } else {
       row.failure = block.parcels.error();

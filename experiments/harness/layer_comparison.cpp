@@ -135,7 +135,7 @@ LayerComparisonOutcome compare_layers(const geodata::LayerSource& observed_sourc
       row.block = found.blocks[b].id;
       row.block_area_m2 = area_m2(found.blocks[b].contour);
       row.observed_parcels = left.shapes[b].size();
-      row.style = parcels::style_of(side->shapes[b]);
+      row.style = parcels::style_of(found.blocks[b], side->shapes[b]);
       row.ks_area = area_ks(left.measured.per_block[b], side->measured.per_block[b]);
       tables.add_block(dataset, row);
       for (std::size_t k = 0; k < side->shapes[b].size(); ++k) {

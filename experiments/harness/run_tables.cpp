@@ -29,7 +29,8 @@ RunTables::RunTables()
       blocks_(
           "dataset,layer,repetition,block_id,status,message,block_area_m2,parcels,observed_parcels,"
           "area_mean_m2,"
-          "area_deviation_m2,width_mean_m,width_deviation_m,ks_area,options,seed") {}
+          "area_deviation_m2,width_mean_m,width_deviation_m,aspect_ratio_mean,access_share_01,"
+          "access_area_01,rows_mean,ks_area,options,seed") {}
 
 void RunTables::add_parcel(const std::string& dataset, const std::string& layer, int repetition,
                            BlockId block, const std::string& parcel_id,
@@ -48,7 +49,8 @@ void RunTables::add_block(const std::string& dataset, const BlockRow& row) {
                   row.failure ? row.failure->message : std::string(), row.block_area_m2,
                   row.style.count, row.observed_parcels, row.style.area_mean_m2,
                   row.style.area_deviation_m2, row.style.width_mean_m, row.style.width_deviation_m,
-                  row.ks_area, row.options, row.seed);
+                  row.style.aspect_ratio_mean, row.style.access_share_01, row.style.access_area_01,
+                  row.style.rows_mean, row.ks_area, row.options, row.seed);
 }
 
 void RunTables::write(const std::filesystem::path& folder) const {

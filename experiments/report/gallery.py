@@ -8,20 +8,23 @@ from run_data import OBSERVED, plots_word, short_title
 from style import Colouring
 
 WORST = 6
+#: More blocks than this go on to another figure.
+PER_FIGURE = 10
 #: A KS statistic of a block with fewer parcels says little.
 LEAST_PARCELS = 4
 PANEL_WIDTH = 2.7
 
 
-def worst_blocks(run, dataset, strategy):
-    """Rows of blocks.csv of the first repetition, largest ks_area first, ties by number of parcels, then block id."""
+def worst_blocks(run, dataset, strategy, count):
+    """At most `count` rows of blocks.csv of the first repetition, largest ks_area first, ties by number of parcels,
+    then block id."""
     rows = run.of("blocks", dataset)
     rows = rows[(rows["layer"] == strategy) & (rows["status"] == "ok") & rows["ks_area"].notna()]
     rows = rows[rows["repetition"] == rows["repetition"].min()]
     enough = rows[rows["observed_parcels"] >= LEAST_PARCELS]
     rows = enough if len(enough) else rows
     return rows.sort_values(["ks_area", "observed_parcels", "block_id"], ascending=[False, False, True],
-                            kind="stable").head(WORST)
+                            kind="stable").head(count)
 
 
 def _shape_of(outline):
@@ -30,11 +33,21 @@ def _shape_of(outline):
     return min(1.6, max(0.25, (north - south) / max(east - west, 1e-6)))
 
 
-def draw_gallery(figures, run, dataset, layout, strategy):
-    """The figure's name, or None where there is nothing to show."""
-    rows = worst_blocks(run, dataset, strategy)
+def draw_gallery(figures, run, dataset, layout, strategy, count=WORST):
+    """The names of the figures, none where there is nothing to show."""
+    rows = worst_blocks(run, dataset, strategy, count)
     if rows.empty or strategy not in layout.layers:
-        return None
+        return []
+    names = []
+    for first in range(0, len(rows), PER_FIGURE):
+        names.append(f"worst_{strategy}_{dataset['name']}" + (f"_{first // PER_FIGURE + 1}" if first else ""))
+        title = (f"{short_title(dataset)}: the {len(rows)} blocks where {strategy} is farthest from the "
+                 f"{plots_word(dataset)}" + (f", from {first + 1}" if first else ""))
+        figures.save(_draw_pairs(dataset, layout, strategy, rows.iloc[first:first + PER_FIGURE], title), names[-1])
+    return names
+
+
+def _draw_pairs(dataset, layout, strategy, rows, title):
     colouring = Colouring("aspect_ratio", layout.layers[OBSERVED])
     outlines = layout.layers["blocks"].set_index("block_id").geometry
     # Pairs side by side: observed left, strategy right, two pairs a row.
@@ -65,8 +78,5 @@ def draw_gallery(figures, run, dataset, layout, strategy):
             word = plots_word(dataset) if side == 0 else strategy
             detail = f"block {row.block_id}" if side == 0 else f"KS of area {row.ks_area:.2f}"
             axes.set_title(f"{word}: {len(own)}\n{detail}", fontsize=8)
-    figure.suptitle(f"{short_title(dataset)}: the {len(rows)} blocks where {strategy} is farthest from the "
-                    f"{plots_word(dataset)}")
-    name = f"worst_{strategy}_{dataset['name']}"
-    figures.save(figure, name)
-    return name
+    figure.suptitle(title)
+    return figure

@@ -16,8 +16,8 @@ warnings.filterwarnings("ignore", message=".*[Ss]hapely.*")
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 
-def make_report(folder):
-    """Returns the path of the page."""
+def make_report(folder, worst):
+    """`worst`: how many blocks the gallery of each strategy shows. Returns the path of the page."""
     from distributions import draw_distances, draw_ecdfs, draw_histograms
     from gallery import draw_gallery
     from maps import Layout, draw_maps
@@ -38,7 +38,7 @@ def make_report(folder):
             "histograms": [draw_histograms(figures, run, dataset, s) for s in strategies],
             "ecdf": [draw_ecdfs(figures, run, dataset)],
             "maps": draw_maps(figures, run, dataset, layout),
-            "worst": [n for s in strategies if (n := draw_gallery(figures, run, dataset, layout, s))],
+            "worst": [n for s in strategies for n in draw_gallery(figures, run, dataset, layout, s, worst)],
         }
         sections.append(dataset_html(run, dataset, figures, names))
     page = run.folder / "report.html"
@@ -51,9 +51,11 @@ def make_report(folder):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Writes report.html and figures/ into a run directory.")
     parser.add_argument("run", metavar="RUN_DIR", help="the --out of `plat run`")
-    folder = parser.parse_args(arguments).run
+    parser.add_argument("--worst", type=int, default=6, metavar="N",
+                        help="blocks to show where each strategy is farthest off (default: %(default)s)")
+    given = parser.parse_args(arguments)
     try:
-        page = make_report(folder)
+        page = make_report(given.run, given.worst)
     except ModuleNotFoundError as error:
         if error.name not in ("matplotlib", "geopandas", "pandas", "numpy", "fiona", "shapely"):
             raise

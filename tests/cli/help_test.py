@@ -17,7 +17,7 @@ COMMANDS = {
     ("subdivide",): ["--blocks", "--streets", "--observed", "--strategy", "--set", "--seed", "--jobs", "--out"],
     ("compare",): ["observed", "generated", "--out", "FILE[:layer]", "--seed", "--jobs"],
     ("run",): ["config", "--out", "--data", "--seed", "--jobs", "--resume"],
-    ("report",): ["dir", "report.html"],
+    ("report",): ["dir", "report.html", "--worst"],
     ("figure",): ["names", "--list", "--out", "PLAT_DATA_DIR"],
 }
 

@@ -54,7 +54,7 @@ void check_strategy(const std::string& name, const blocks::Block& block, const O
   }
   // What is fitted to these parcels must be options that may run.
   static_cast<void>(parcels::block_subdividers().make(
-      name, subdivider.fitted(parcels::style_of(shapes)).options()));
+      name, subdivider.fitted(parcels::style_of(block, shapes)).options()));
 }
 
 /// What `plat run` and `plat compare` do with parcels that were read.

@@ -24,7 +24,7 @@ class MadePlace {
     for (DividedBlock& block : subdivide_blocks(blocks, truth, {}, "made", 1, 0, {1}, progress)) {
       std::vector<Polygon> shapes;
       for (const parcels::Parcel& p : *block.parcels) shapes.push_back(p.shape);
-      styles.push_back(parcels::style_of(shapes));
+      styles.push_back(parcels::style_of(blocks[styles.size()], shapes));
       observed.push_back(std::move(block.measures));
     }
   }

@@ -119,31 +119,5 @@ TEST(SkeletonSubdivider, TwinsHaveEquallyManyParcelsOfEqualAreas) {
   }
 }
 
-TEST(ParcelStyle, HasMeansAndSampleDeviations) {
-  const Polygon a{{{0, 0}, {10, 0}, {10, 20}, {0, 20}}, {}};
-  const Polygon b{{{0, 0}, {20, 0}, {20, 30}, {0, 30}}, {}};
-  const ParcelStyle style = style_of(std::vector<Polygon>{a, b});
-  EXPECT_EQ(style.count, 2U);
-  EXPECT_DOUBLE_EQ(style.area_mean_m2, 400.0);
-  EXPECT_DOUBLE_EQ(style.area_deviation_m2, 200.0 * std::sqrt(2.0));
-  EXPECT_DOUBLE_EQ(style.width_mean_m, 15.0);
-  EXPECT_DOUBLE_EQ(style.width_deviation_m, 5.0 * std::sqrt(2.0));
-  EXPECT_EQ(style_of(std::vector<Polygon>{a}).area_deviation_m2, 0.0);
-  EXPECT_EQ(style_of({}).count, 0U);
-}
-
-TEST(BoundsAround, AreTheMeanPlusMinusKDeviations) {
-  const Bounds bounds = bounds_around(500.0, 100.0, 2.0, 1.0);
-  EXPECT_EQ(bounds.low, 300.0);
-  EXPECT_EQ(bounds.high, 700.0);
-}
-
-TEST(BoundsAround, KeepTheFloorAndATenthOfTheMean) {
-  EXPECT_EQ(bounds_around(100.0, 100.0, 2.0, 1.0).low, 1.0);
-  EXPECT_DOUBLE_EQ(bounds_around(100.0, 0.0, 2.0, 1.0).high, 110.0);
-  const Bounds degenerate = bounds_around(0.0, 0.0, 2.0, 1.0);
-  EXPECT_LE(degenerate.low, degenerate.high);
-}
-
 }  // namespace
 }  // namespace plat::parcels

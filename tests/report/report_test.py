@@ -56,6 +56,24 @@ class FullReport(WithRun):
             self.assertEqual(found, expected)
         self.assertEqual(self.page.count("data:image/png;base64,"), len(expected))
 
+    def test_a_gallery_of_many_blocks_goes_on_to_another_figure(self):
+        from gallery import PER_FIGURE, draw_gallery, worst_blocks
+        from maps import Layout
+        from run_data import Run
+
+        class Kept(dict):
+            def save(self, figure, name):
+                self[name] = len(figure.axes)
+
+        run, figures = Run(self.folder), Kept()
+        dataset = run.datasets[0]
+        rows = worst_blocks(run, dataset, "obb", 14)
+        self.assertEqual(len(rows), 14)
+        self.assertTrue(rows["ks_area"].is_monotonic_decreasing)
+        names = draw_gallery(figures, run, dataset, Layout(run.layout(dataset)), "obb", 14)
+        self.assertEqual(names, ["worst_obb_madeup", "worst_obb_madeup_2"])
+        self.assertEqual(list(figures.values()), [2 * PER_FIGURE, 2 * 4])
+
     def test_asks_for_nothing_from_outside(self):
         self.assertFalse(re.search(r"""(src|href)\s*=\s*["'](?!data:|#)""", self.page))
         for word in ("http://", "https://", "<script", "@import", "url("):

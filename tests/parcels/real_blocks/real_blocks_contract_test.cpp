@@ -46,7 +46,8 @@ TEST_P(RealBlocksContract, NearlyAllAreDividedAndEveryResultIsACoverage) {
   for (std::size_t i = 0; i < observed.size(); ++i) {
     const blocks::Block& block = observed[i].block;
     Rng rng(derive_seed(testing::number_from_environment("PLAT_TEST_SEED", 1), {block.id.value}));
-    const auto parcels = strategy.fitted(style_of(observed[i].parcels)).subdivide(block, rng);
+    const auto parcels =
+        strategy.fitted(style_of(observed[i].block, observed[i].parcels)).subdivide(block, rng);
     const bool is_large = area_m2(block.contour) > kSmallBlock_m2;
     large += is_large ? 1 : 0;
     large_divided += is_large && parcels ? 1 : 0;
