@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "parcels/coverage.h"
+
 namespace plat::parcels {
 namespace {
 
@@ -40,37 +42,45 @@ std::vector<bool> find_inside(const PlanarGraph& graph, const PlanarFaces& faces
   return is_inside;
 }
 
-/// Nodes in which the contour touches itself after noding: it has bent through one of its own
-/// vertices, or through the end of a cut, within a grid step.
-std::vector<bool> find_touches(const PlanarGraph& graph, std::size_t contour_size) {
+/// Nodes in which the contour is not itself after noding: it touches itself there, as it has bent
+/// through one of its own vertices or through the end of a cut, or it is drawn farther off its edge
+/// than a coverage may be.
+std::vector<bool> find_departures(const PlanarGraph& graph, std::span<const Segment> contour) {
   std::vector<int> contour_edges(graph.nodes.size(), 0);
+  std::vector<bool> is_departure(graph.nodes.size());
   for (const PlanarGraph::Edge& e : graph.edges) {
-    if (e.source >= contour_size) continue;
-    ++contour_edges[e.from];
-    ++contour_edges[e.to];
+    if (e.source >= contour.size()) continue;
+    for (const std::uint32_t node : {e.from, e.to}) {
+      ++contour_edges[node];
+      if (distance(contour[e.source], graph.nodes[node]) > kContourTolerance_m)
+        is_departure[node] = true;
+    }
   }
-  std::vector<bool> is_touch(graph.nodes.size());
-  for (std::size_t n = 0; n < is_touch.size(); ++n) is_touch[n] = contour_edges[n] > 2;
+  for (std::size_t n = 0; n < is_departure.size(); ++n) {
+    if (contour_edges[n] > 2) is_departure[n] = true;
+  }
   for (const PlanarGraph::Overlap& o : graph.overlaps) {
-    if (o.source >= contour_size) continue;
-    is_touch[graph.edges[o.edge].from] = true;
-    is_touch[graph.edges[o.edge].to] = true;
+    if (o.source >= contour.size()) continue;
+    is_departure[graph.edges[o.edge].from] = true;
+    is_departure[graph.edges[o.edge].to] = true;
   }
-  return is_touch;
+  return is_departure;
 }
 
-/// Cuts with a node where the contour touches itself.
-std::vector<std::uint32_t> find_closing_cuts(const PlanarGraph& graph,
-                                             const std::vector<bool>& is_touch,
+/// Cuts with a node where the contour is not itself.
+std::vector<std::uint32_t> find_bending_cuts(const PlanarGraph& graph,
+                                             const std::vector<bool>& is_departure,
                                              std::size_t contour_size) {
   std::vector<std::uint32_t> out;
   for (const PlanarGraph::Edge& e : graph.edges) {
-    if (e.source >= contour_size && (is_touch[e.from] || is_touch[e.to])) out.push_back(e.source);
+    if (e.source >= contour_size && (is_departure[e.from] || is_departure[e.to]))
+      out.push_back(e.source);
   }
   // A cut may have run along the contour only, under another source.
   for (const PlanarGraph::Overlap& o : graph.overlaps) {
     const PlanarGraph::Edge& e = graph.edges[o.edge];
-    if (o.source >= contour_size && (is_touch[e.from] || is_touch[e.to])) out.push_back(o.source);
+    if (o.source >= contour_size && (is_departure[e.from] || is_departure[e.to]))
+      out.push_back(o.source);
   }
   return out;
 }
@@ -92,15 +102,16 @@ Expected<BlockPartition> BlockPartition::cut(const blocks::Block& block,
   const std::size_t contour_size = segments.size();
   segments.insert(segments.end(), cuts.begin(), cuts.end());
   PlanarGraph noded = node_segments(segments);
-  // A cut that ends within a grid step of the tip of a spike would close it: such cuts are left
-  // out, one by one where need be.
+  // A cut that ends within a grid step of the tip of a spike would close it, and one along a spike
+  // may draw its sides off themselves: such cuts are left out, one by one where need be.
   for (;;) {
-    const std::vector<bool> is_touch = find_touches(noded, contour_size);
-    if (std::find(is_touch.begin(), is_touch.end(), true) == is_touch.end()) break;
-    const std::vector<std::uint32_t> closing = find_closing_cuts(noded, is_touch, contour_size);
-    if (closing.empty())
+    const std::vector<bool> is_departure =
+        find_departures(noded, std::span(segments).first(contour_size));
+    if (std::find(is_departure.begin(), is_departure.end(), true) == is_departure.end()) break;
+    const std::vector<std::uint32_t> bending = find_bending_cuts(noded, is_departure, contour_size);
+    if (bending.empty())
       return fail(FailureCode::kNotSimple, "the contour touches itself within a grid step");
-    for (const std::uint32_t source : closing) segments[source].b = segments[source].a;
+    for (const std::uint32_t source : bending) segments[source].b = segments[source].a;
     noded = node_segments(segments);
   }
   out.graph_ = without_edges(noded, find_dead_ends(noded));

@@ -30,9 +30,10 @@ inline constexpr std::size_t kMaxLotsPerBlock = 10'000;
 ///
 /// Guarantees: 1. the regions' polygons are a coverage: between two of them the same vertices on
 /// both sides, bit for bit;  2. their union is the contour, with a vertex more where a cut ends on
-/// it, at most one grid step off the contour's edge;  3. cuts may start, end and cross anywhere:
-/// what does not separate anything is ignored. Regions start as the single cells, numbered by where
-/// they lie along the contour, inner ones last.
+/// it, at most kContourTolerance_m (coverage.h) off the contour's edge;  3. cuts may start, end and
+/// cross anywhere: what does not separate anything is ignored, what would draw the contour off
+/// itself is left out. Regions start as the single cells, numbered by where they lie along the
+/// contour, inner ones last.
 class BlockPartition {
  public:
   /// @param cuts  segments in the block's frame, snapped here; parts outside the block do no harm

@@ -33,7 +33,13 @@ TEST(Regression, LotsFarTooSmallForTheBlockAreAFailureNotAFullMemory) {
   const std::map<std::string, OptionMap> smallest{
       {"obb", {{"area_max_m2", 1.0}, {"width_max_m", 0.5}, {"street_access", 0.0}}},
       {"skeleton", {{"width_min_m", 0.0}, {"width_max_m", 0.5}}},
-      {"voronoi", {{"area_mean_m2", 1.0}}}};
+      {"voronoi", {{"area_mean_m2", 1.0}}},
+      {"border_voronoi", {{"spacing_m", 0.5}}},
+      {"min_box", {{"lot_width_m", 0.5}, {"lot_depth_m", 0.5}}},
+      {"cube_packing", {{"lot_width_m", 0.5}}},
+      {"parish_mueller", {{"area_max_m2", 1.0}}},
+      {"recursive", {{"area_min_m2", 0.0}, {"area_max_m2", 1.0}, {"width_min_m", 0.0}}}};
+  ASSERT_EQ(smallest.size(), block_subdividers().names().size());
   for (const auto& [name, options] : smallest) {
     const auto found = divide(name.c_str(), options, district);
     ASSERT_FALSE(found) << name;
@@ -84,6 +90,30 @@ TEST(Regression, AContourThatPassesItsOwnVertexWithinAGridStepIsAFailure) {
     const auto defect = find_coverage_defect(block.contour, *found, kContourTolerance_m);
     EXPECT_FALSE(defect) << name << ": " << defect->message;
   }
+}
+
+TEST(Regression, CutsThatDrawTheContourOffItselfAreLeftOut) {
+  // A spike 295 m long and 16 mm wide with a cut along it and many across: noding drew a side of
+  // it two grid steps off, half a step more than a coverage may.
+  blocks::Block block = blocks::block_from_contour(BlockId{}, {{{-598.2548828125, 1230.962890625},
+                                                                {-478.716796875, 1374.0224609375},
+                                                                {-700.05859375, 1569.7744140625},
+                                                                {-478.7060546875, 1374.0341796875},
+                                                                {-319.451171875, 1564.625},
+                                                                {-555.5546875, 1761.9111328125},
+                                                                {-834.359375, 1428.2490234375}},
+                                                               {}});
+  for (const std::size_t i : {1, 5, 6}) block.edges[0][i] = {};
+  Rng rng(derive_seed(1, {19706}));
+  const auto found = block_subdividers()
+                         .make("recursive", {{"area_max_m2", 520.0827588264658},
+                                             {"area_min_m2", 1.0},
+                                             {"width_min_m", 2.2715721897198815}})
+                         .subdivide(block, rng);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->size(), 100U);
+  const auto defect = find_coverage_defect(block.contour, *found, kContourTolerance_m);
+  EXPECT_FALSE(defect) << defect->message;
 }
 
 }  // namespace
