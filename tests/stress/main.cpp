@@ -33,7 +33,7 @@ std::string codes_of(const StressResult& result) {
 
 void print_header() {
   fmt::print("{:<18} {:<15} {:>7} {:>8} {:>9} {:>10} {:>11} {:>8} {:>8}  {}\n", "set", "strategy",
-             "blocks", "divided", "parcels", "> 200 m2", "failed [%]", "slowest", "cpu",
+             "blocks", "divided", "parcels", "> 200 m2", "failed [%]", "slowest", "total",
              "failures");
 }
 
