@@ -136,7 +136,7 @@ StressSet random_set(std::uint64_t seed, std::uint32_t count) {
 StressSet city_set(const std::string& dataset) {
   StressSet set{dataset, {}, {}};
   for (harness::ObservedBlock& observed : harness::load_city(geodata::dataset(dataset)).blocks) {
-    set.styles.push_back(parcels::style_of(observed.parcels));
+    set.styles.push_back(parcels::style_of(observed.block, observed.parcels));
     set.blocks.push_back(std::move(observed.block));
   }
   return set;
