@@ -10,29 +10,30 @@
 
 namespace plat::cli {
 
-void expect_output(const std::string& path, std::initializer_list<std::string> inputs) {
+void expect_output(const std::string& path, std::initializer_list<std::string> inputs,
+                   std::string_view flag) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path target(path);
   if (target.extension() != ".gpkg" || target.stem().empty())
-    throw InputError(fmt::format("--out {}: must be a file that ends in .gpkg", path));
+    throw InputError(fmt::format("{} {}: must be a file that ends in .gpkg", flag, path));
   if (fs::is_directory(target, ignored))
-    throw InputError(fmt::format("--out {}: is a folder; name a file in it", path));
+    throw InputError(fmt::format("{} {}: is a folder; name a file in it", flag, path));
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored))
-    throw InputError(
-        fmt::format("--out {}: the folder {} is not there; make it first", path, folder.string()));
+    throw InputError(fmt::format("{} {}: the folder {} is not there; make it first", flag, path,
+                                 folder.string()));
   const fs::path probe = folder / ("." + target.stem().string() + ".probe");
   const bool is_writable = std::ofstream(probe).is_open();
   fs::remove(probe, ignored);
   if (!is_writable)
-    throw InputError(fmt::format("--out {}: no file can be written in {}; choose another folder",
+    throw InputError(fmt::format("{} {}: no file can be written in {}; choose another folder", flag,
                                  path, folder.string()));
   for (const std::string& input : inputs) {
     if (input.empty() || !fs::exists(target, ignored)) continue;
     if (fs::equivalent(target, geodata::parse_layer_source(input).file, ignored))
       throw InputError(
-          fmt::format("--out {}: is an input, which would be lost; choose another file", path));
+          fmt::format("{} {}: is an input, which would be lost; choose another file", flag, path));
   }
 }
 

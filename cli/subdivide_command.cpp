@@ -44,8 +44,11 @@ harness::StrategyConfig strategy_of(const Arguments& args) {
 ExitStatus run(const Arguments& args) {
   const harness::StrategyConfig strategy = strategy_of(args);
   expect_output(args.out, {args.blocks, args.streets, args.observed});
-  if (!args.trace.empty())
-    expect_output(args.trace, {args.blocks, args.streets, args.observed, args.out});
+  if (!args.trace.empty()) {
+    expect_output(args.trace, {args.blocks, args.streets, args.observed}, "--trace");
+    if (args.trace == args.out)
+      throw InputError(fmt::format("--trace {}: is --out; choose another file", args.trace));
+  }
   harness::ReadBlocks read =
       harness::read_blocks(geodata::parse_layer_source(args.blocks), args.jobs);
   harness::label_from_streets(read, args.streets, args.jobs);

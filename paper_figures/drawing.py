@@ -99,7 +99,7 @@ class MeasureMaps:
         label_colour_bar(bar, self.colouring)
 
 
-def draw_statistics_map(axes, comparison, layer=OBSERVED, font=4.6):
+def draw_statistics_map(axes, comparison, layer=OBSERVED, font=6.0):
     """Black and white; on each block the four statistics that its options are fitted to [VKW12, Sec. 6 (ii)]."""
     blocks = comparison.layers["blocks"]
     open_map(axes, bounds_of(blocks))

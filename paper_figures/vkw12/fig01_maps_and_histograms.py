@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 from figure import make  # noqa: E402
-from drawing import (MeasureMaps, bounds_of, caption, draw_histogram, draw_statistics_map, fill,  # noqa: E402
+from drawing import (MeasureMaps, caption, draw_histogram, draw_statistics_map, fill,  # noqa: E402
                      histogram_legend, letter, open_map, pale_faces)
 from places import GENERATED, OBSERVED, Place, Window, layer, merged  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402
@@ -19,6 +19,8 @@ STYLE_LINE_X = 229670.0
 LARGEST_BLOCK_M2 = 80000.0
 #: What a building needs: a lot narrower or thinner than this has none in the observed part either.
 NARROWEST_M, MOST_ELONGATED = 4.0, 8.0
+#: Width and height of the details.
+DETAIL_M = (330.0, 235.0)
 
 
 def styled(figure, place):
@@ -36,8 +38,11 @@ def detail(axes, file, blocks, key, text):
     """A few blocks of one style at a scale where each parcel can be seen."""
     parcels = layer(file, "parcels")
     chosen = blocks.iloc[(blocks.area - blocks.area.median()).abs().argsort()[:1]]
-    bounds = bounds_of(chosen, 0.35)
+    middle = chosen.geometry.iloc[0].centroid
+    (wide, high) = DETAIL_M
+    bounds = [middle.x - wide / 2, middle.y - high / 2, middle.x + wide / 2, middle.y + high / 2]
     open_map(axes, bounds)
+    axes.set_xlim(bounds[0], bounds[2])
     near = parcels.cx[bounds[0]:bounds[2], bounds[1]:bounds[3]]
     fill(axes, near, pale_faces(near), clip_on=True)
     letter(axes, key, text)
@@ -49,9 +54,9 @@ def draw(figure):
     comparison = place.compare(procedural, "procedural")
     maps = MeasureMaps(comparison, "aspect_ratio")
 
-    picture = plt.figure(figsize=(15.0, 13.6), layout="constrained")
+    picture = plt.figure(figsize=(16.5, 14.0), layout="constrained")
     panels = picture.subplot_mosaic([["a", "b", "c"], ["d", "f", "g"], ["e", "f", "h"]],
-                                    gridspec_kw={"height_ratios": [1.0, 0.52, 0.52]})
+                                    gridspec_kw={"height_ratios": [1.0, 0.6, 0.6]})
     open_map(panels["a"], maps.bounds)
     fill(panels["a"], comparison.layers[OBSERVED], "white", "#444444", 0.3)
     fill(panels["a"], comparison.layers["blocks"], "none", "black", 0.8)

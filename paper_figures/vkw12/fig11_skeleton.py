@@ -33,7 +33,7 @@ def draw(figure):
     comparison = place.compare(place.subdivide("skeleton"), "skeleton")
     maps = MeasureMaps(comparison, "area_m2")
 
-    picture, grid = sheet(2, 3, 11.5, 9.6)
+    picture, grid = sheet(2, 3, 11.5, 8.8)
     (a, b, c), (d, e, f) = grid
     open_map(a, maps.bounds)
     fill(a, comparison.layers["blocks"], "#f2efe9", "black", 0.8)
@@ -49,7 +49,7 @@ def draw(figure):
     draw_histogram(e, comparison, "aspect_ratio")
     letter(e, "e", "aspect ratios")
     maps.draw(f, GENERATED)
-    maps.colour_bar(picture, [c, f])
+    maps.colour_bar(picture, [c, f], pad=0.06)
     letter(f, "f", "procedural (skeleton), by area")
     caption(picture, figure)
     figure.save(picture)

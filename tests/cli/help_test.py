@@ -14,7 +14,7 @@ COMMANDS = {
     ("data", "fetch"): ["name"],
     ("data", "check"): ["names"],
     ("blocks",): ["--streets", "--out", "FILE[:layer]", "--jobs"],
-    ("subdivide",): ["--blocks", "--streets", "--observed", "--strategy", "--set", "--seed", "--jobs", "--out"],
+    ("subdivide",): ["--blocks", "--streets", "--observed", "--strategy", "--set", "--seed", "--jobs", "--out", "--trace"],
     ("compare",): ["observed", "generated", "--out", "FILE[:layer]", "--seed", "--jobs"],
     ("run",): ["config", "--out", "--data", "--seed", "--jobs", "--resume"],
     ("report",): ["dir", "report.html", "--worst"],

@@ -99,6 +99,26 @@ class Subdivide(CliTest):
         failures = read_layer(self.path("out.gpkg"), "failures")
         self.assertEqual([(p["block_id"], p["code"]) for p, _ in failures], [("1", "no_observation")])
 
+    def test_a_trace_shows_the_splits_and_leaves_the_parcels_as_they_are(self):
+        blocks = self.blocks([rectangle(0, 0, 120, 60)], [rectangle(200, 0, 90, 80)])
+        trace = self.path("trace.gpkg")
+        self.assert_status(self.divide(blocks, "obb", "--trace", trace, out="watched.gpkg"), DONE)
+        self.assert_status(self.divide(blocks, "obb"), DONE)
+        self.assertEqual(self.parcels("watched.gpkg"), self.parcels())
+        splits = read_layer(trace, "splits")
+        for block in (0, 1):
+            parcels = [p for p, _ in self.parcels() if p["block_id"] == block]
+            depths = [p["number"] for p, _ in splits if p["block_id"] == block]
+            self.assertEqual(len(depths) + 1, len(parcels))  # a split of a rectangle adds one parcel
+            self.assertEqual(min(depths), 0)
+        self.assertEqual(len(read_layer(trace, "lot_boxes")), len(splits))
+
+    def test_a_trace_that_cannot_be_written_is_refused_first(self):
+        blocks = self.blocks([rectangle(0, 0, 120, 60)])
+        for trace, word in ((self.path("out.gpkg"), "--out"), (blocks, "input"), (self.path("trace.csv"), ".gpkg")):
+            self.assert_refused(self.divide(blocks, "obb", "--trace", trace), "--trace", word)
+        self.assert_only("blocks.gpkg")
+
     def test_same_seed_same_bytes_whatever_the_threads(self):
         blocks = self.blocks([rectangle(0, 0, 120, 60)], COURTYARD, L_SHAPE)
         for strategy in STRATEGIES:
