@@ -1,6 +1,7 @@
 #include "parcels/block_subdivider.h"
 #include "parcels/border_voronoi_subdivider.h"
 #include "parcels/cube_packing_subdivider.h"
+#include "parcels/hybrid_subdivider.h"
 #include "parcels/min_box_subdivider.h"
 #include "parcels/obb_subdivider.h"
 #include "parcels/parish_mueller_subdivider.h"
@@ -21,6 +22,7 @@ const Registry<AnyBlockSubdivider>& block_subdividers() {
     all.add<CubePackingSubdivider>();
     all.add<ParishMuellerSubdivider>();
     all.add<RecursiveSubdivider>();
+    all.add<HybridSubdivider>();
     return all;
   }();
   return kMenu;
