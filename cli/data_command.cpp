@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,19 @@ ordered_json to_json(const Dataset& set) {
                              {"kind", geodata::kind_name(layer.kind)},
                              {"features", layer.feature_count}});
   }
+  out["observed"] = ordered_json::object();
+  if (!set.observed) return out;
+  const auto add = [&](const char* theme, const std::optional<geodata::LayerMapping>& mapping) {
+    if (!mapping) return;
+    out["observed"][theme] = {{"layer", mapping->layer},
+                              {"where", mapping->where},
+                              {"fields", mapping->fields},
+                              {"settings", mapping->settings}};
+  };
+  add("parcels", set.observed->parcels);
+  add("streets", set.observed->streets);
+  add("footprints", set.observed->footprints);
+  add("blocks", set.observed->blocks);
   return out;
 }
 

@@ -43,16 +43,15 @@ class Place:
         self.streets = ""
         near = window.shape().buffer(MARGIN_M)
         town = figure.path("town.gpkg")
-        parcels = _read(source, "parcels", near)
+        parcels = _read(source["observed"]["parcels"], near)
         parcels.to_file(town, layer="parcels", driver="GPKG")
         command = ["blocks", "--parcels", f"{town}:parcels", "--out", figure.path("blocks.gpkg")]
-        if any(layer["name"] == "streets" for layer in source["layers"]):
-            streets = _read(source, "streets", near)
-            streets.to_file(town, layer="streets", driver="GPKG")
-            command += ["--streets", f"{town}:streets", *_street_fields(window.dataset)]
-        figure.plat(*command)
-        if "--streets" in command:
+        mapping = source["observed"].get("streets")
+        if mapping:
+            _read(mapping, near).to_file(town, layer="streets", driver="GPKG")
+            command += ["--streets", f"{town}:streets", *_street_words(mapping)]
             self.streets = f"{figure.path('blocks.gpkg')}:streets"
+        figure.plat(*command)
         blocks = geopandas.read_file(figure.path("blocks.gpkg"), layer="blocks")
         blocks = blocks[blocks.representative_point().within(window.shape())]
         if keep is not None:
@@ -128,16 +127,20 @@ class Comparison:
         return float(row["value"]), note
 
 
-def _read(source, name, near):
-    (entry,) = [e for e in source["layers"] if e["name"] == name]
-    path = pathlib.Path(os.environ["PLAT_DATA_DIR"]) / entry["file"]
-    frame = geopandas.read_file(path, layer=name, bbox=near.bounds)
+def _read(mapping, near):
+    """A layer that the catalogue names as PATH:LAYER, near a shape."""
+    if mapping["where"]:
+        raise FigureError(f"{mapping['layer']}: the catalogue's condition \"{mapping['where']}\" is not applied here")
+    file, name = mapping["layer"].rsplit(":", 1)
+    frame = geopandas.read_file(pathlib.Path(os.environ["PLAT_DATA_DIR"]) / file, layer=name, bbox=near.bounds)
     return frame.reset_index(drop=True)
 
 
-def _street_fields(dataset):
-    """As the catalogue maps the fields of this data set's streets."""
-    if dataset == "cambridge_ma":
-        return ["--name-field", "Street", "--class-field", "MajorRoad", "--class-prefix", "major_",
-                "--default-class", "local"]
-    return []
+def _street_words(mapping):
+    """The catalogue's fields and settings of streets as `plat blocks` takes them."""
+    fields = {"name": "--name-field", "class": "--class-field", "width": "--width-field", "lanes": "--lanes-field",
+              "layer": "--level-field", "structure": "--structure-field"}
+    settings = {"class_prefix": "--class-prefix", "default_class": "--default-class"}
+    known = [(fields, mapping["fields"]), (settings, mapping["settings"])]
+    return [word for flags, values in known for key, value in values.items() if key in flags
+            for word in (flags[key], value)]

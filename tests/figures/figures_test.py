@@ -57,6 +57,13 @@ class Listing(unittest.TestCase):
         for entry in ENTRIES.values():
             self.assertLessEqual(set(entry["datasets"]), known, entry["id"])
 
+    def test_the_catalogue_tells_where_observed_layers_are(self):
+        known = {d["name"]: d["observed"] for d in json.loads(plat("data", "list", "--json").stdout)}
+        self.assertEqual(known["cambridge_ma"]["streets"]["fields"]["class"], "MajorRoad")
+        for entry in ENTRIES.values():
+            for name in entry["datasets"]:
+                self.assertIn("parcels", known[name])
+
     def test_scripts_name_the_data_sets_they_read(self):
         for entry in ENTRIES.values():
             text = (FIGURES / entry["script"]).read_text(encoding="utf-8")
