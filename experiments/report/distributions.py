@@ -8,8 +8,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from run_data import OBSERVED, layer_word, plots_word, short_title
-from style import (DISTANCES, GENERATED_BLUE, LAYER_COLOURS, LAYER_DASHES, OBSERVED_RED, add_bottom_legend, name_of,
-                   title_of)
+from style import (DISTANCES, GENERATED_BLUE, LAYER_COLOURS, LAYER_DASHES, LAYER_MARKERS, OBSERVED_RED,
+                   add_bottom_legend, name_of, title_of)
 
 #: Points per curve: as many as a page can show.
 ECDF_POINTS = 400
@@ -122,7 +122,9 @@ def draw_distances(figures, run, dataset):
     """Every distance in units of its noise floor: left of 1 is as close as one half of the place to the other."""
     rows = run.of("distances", dataset)
     kinds = [k for k in DISTANCES if (rows["distance"] == k).any()]
-    figure, panels = plt.subplots(1, len(kinds), figsize=(3.6 * len(kinds) + 0.8, 0.42 * len(run.measures) + 1.6),
+    step = 0.8 / max(4, len(run.strategies))  # the strategies of a measure take four fifths of its row
+    row = 0.42 * max(1.0, len(run.strategies) / 4)
+    figure, panels = plt.subplots(1, len(kinds), figsize=(3.6 * len(kinds) + 0.8, row * len(run.measures) + 1.6),
                                   layout="constrained", sharey=True, squeeze=False)
     handles = {}
     for axes, kind in zip(panels.flat, kinds):
@@ -132,19 +134,21 @@ def draw_distances(figures, run, dataset):
             own = of[of["layer"] == strategy]
             if own.empty:
                 continue
-            offset = (i - 0.5 * (len(run.strategies) - 1)) * 0.2
+            offset = (i - 0.5 * (len(run.strategies) - 1)) * step
             place = own["measure"].map(run.measures.index).to_numpy() + offset
             value = (own["value"] / own["noise_mean"]).to_numpy()
             reach = numpy.array([value - own["ci_low"] / own["noise_mean"], own["ci_high"] / own["noise_mean"] - value])
             reach = numpy.clip(numpy.nan_to_num(reach), 0.0, None)
             handles[strategy] = axes.errorbar(
-                value, place, xerr=reach, fmt="osD^v<"[i % 6], markersize=4, linewidth=1.2,
+                value, place, xerr=reach, fmt=LAYER_MARKERS[i % len(LAYER_MARKERS)], markersize=4, linewidth=1.2,
                 color=LAYER_COLOURS[i % len(LAYER_COLOURS)], label=strategy)
         axes.set_title(DISTANCES[kind])
         axes.set_xlabel("distance / noise floor")
         axes.set_xlim(left=0)
         axes.set_yticks(range(len(run.measures)), [name_of(m) for m in run.measures])
         axes.grid(axis="x", color="#eeeeee", zorder=-1)
+        for border in range(1, len(run.measures)):
+            axes.axhline(border - 0.5, color="#dddddd", linewidth=0.6, zorder=-1)
     panels.flat[0].set_ylim(len(run.measures) - 0.4, -0.6)
     add_bottom_legend(figure, list(handles.values()))
     figure.suptitle(f"{short_title(dataset)}: distance from the {plots_word(dataset)}, 95 % intervals "

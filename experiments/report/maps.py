@@ -126,10 +126,10 @@ def frame_axes(axes, bounds):
 def draw_map(figures, run, dataset, layout, measure, bounds, name, scope):
     """One panel per layer; `scope` says what part is shown."""
     layers = [OBSERVED, *run.strategies]
-    columns = 2
+    columns = 2 if len(layers) <= 4 else 3
     rows = math.ceil(len(layers) / columns)
     shape = (bounds[3] - bounds[1]) / (bounds[2] - bounds[0])
-    panel = 5.2
+    panel = 5.2 if columns == 2 else 3.9
     height = min(max(panel * shape, 2.2), 7.0)
     figure, grid = plt.subplots(rows, columns, figsize=(columns * panel + 1.0, rows * (height + 0.35) + 0.6),
                                 layout="constrained", squeeze=False)

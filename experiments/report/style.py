@@ -14,9 +14,13 @@ from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, LogNorm, No
 OBSERVED_RED = "#d62728"
 GENERATED_BLUE = "#1f50c8"
 RED_TO_GREEN = LinearSegmentedColormap.from_list("aspect", ["#d7191c", "#f98e52", "#fee391", "#a6d96a", "#1a9641"])
-#: One colour and dash per strategy where several meet in one picture (Okabe and Ito's palette, safe for most readers).
-LAYER_COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#000000"]
-LAYER_DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1))]
+#: One colour, dash and marker per strategy where several meet in one picture (Okabe and Ito's palette, safe for most
+#: readers, then brown and olive for the seventh and eighth).
+LAYER_COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#000000", "#7b4a12", "#8a8f00"]
+LAYER_DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), (0, (8, 2)), (0, (3, 1, 1, 1))]
+LAYER_MARKERS = "osD^v<>P"
+#: Entries of a legend in a row below the panels.
+LEGEND_COLUMNS = 5
 
 TITLES = {
     "area_m2": "area [m²]", "perimeter_m": "perimeter [m]", "width_m": "minimum width [m]",
@@ -70,9 +74,10 @@ def add_bottom_legend(figure, handles):
     """Below the panels. Debian's matplotlib 3.6 has no legend outside of a constrained layout: make room for it."""
     if not handles:
         return
-    room = 0.3 / figure.get_size_inches()[1]
+    rows = -(-len(handles) // LEGEND_COLUMNS)
+    room = (0.1 + 0.2 * rows) / figure.get_size_inches()[1]
     figure.get_layout_engine().set(rect=(0.0, room, 1.0, 1.0 - room))
-    figure.legend(handles=handles, loc="lower center", ncol=len(handles))
+    figure.legend(handles=handles, loc="lower center", ncol=-(-len(handles) // rows))
 
 
 class Figures:
