@@ -39,7 +39,9 @@ TEST(Regression, LotsFarTooSmallForTheBlockAreAFailureNotAFullMemory) {
       {"cube_packing", {{"lot_width_m", 0.5}}},
       {"parish_mueller", {{"area_max_m2", 1.0}}},
       {"recursive", {{"area_min_m2", 0.0}, {"area_max_m2", 1.0}, {"width_min_m", 0.0}}}};
-  ASSERT_EQ(smallest.size(), block_subdividers().names().size());
+  // A hybrid hands a block to one of the others.
+  for (const std::string& name : block_subdividers().names())
+    EXPECT_TRUE(smallest.contains(name) || name == "hybrid") << name;
   for (const auto& [name, options] : smallest) {
     const auto found = divide(name.c_str(), options, district);
     ASSERT_FALSE(found) << name;
