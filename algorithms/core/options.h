@@ -60,10 +60,26 @@ struct EnumField {
   std::string_view description;
 };
 
+/// A numeric option that may be absent, written "none".
+template <class Options>
+struct OptionalField {
+  std::string_view name;
+  std::optional<double> Options::* member;
+  double min;
+  double max;
+  std::string_view description;
+};
+template <class Options, class Low, class High>
+OptionalField(std::string_view, std::optional<double> Options::*, Low, High, std::string_view)
+    -> OptionalField<Options>;
+
+/// What an absent option is called in configs and tables.
+inline constexpr std::string_view kAbsent = "none";
+
 /// How an option looks to a person and to `plat list strategies --json`.
 struct FieldDescription {
   std::string name;
-  std::string type;  ///< "number", "integer" or "choice"
+  std::string type;  ///< "number", "integer", "number or none" or "choice"
   OptionValue default_value;
   double min = 0.0;
   double max = 0.0;
@@ -98,6 +114,21 @@ void read_field(std::string_view owner, Options& options, const Field<Options, V
   options.*(field.member) = static_cast<Value>(number);
 }
 
+template <class Options>
+void read_field(std::string_view owner, Options& options, const OptionalField<Options>& field,
+                const OptionValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (text != nullptr && *text == kAbsent) {
+    options.*(field.member) = std::nullopt;
+    return;
+  }
+  if (text != nullptr) throw_wrong_type(owner, field.name, "a number or \"none\"");
+  const double number = std::get<double>(value);
+  if (!(number >= field.min && number <= field.max))
+    throw_out_of_range(owner, field.name, number, field.min, field.max);
+  options.*(field.member) = number;
+}
+
 template <class Options, class Enum, std::size_t N>
 void read_field(std::string_view owner, Options& options, const EnumField<Options, Enum, N>& field,
                 const OptionValue& value) {
@@ -119,6 +150,13 @@ OptionValue write_field(const Options& options, const Field<Options, Value>& fie
   return static_cast<double>(options.*(field.member));
 }
 
+template <class Options>
+OptionValue write_field(const Options& options, const OptionalField<Options>& field) {
+  const std::optional<double>& value = options.*(field.member);
+  if (!value) return std::string(kAbsent);
+  return *value;
+}
+
 template <class Options, class Enum, std::size_t N>
 OptionValue write_field(const Options& options, const EnumField<Options, Enum, N>& field) {
   for (const auto& choice : field.names) {
@@ -132,6 +170,17 @@ FieldDescription describe_field(const Options& defaults, const Field<Options, Va
   return {std::string(field.name),        std::is_integral_v<Value> ? "integer" : "number",
           write_field(defaults, field),   static_cast<double>(field.min),
           static_cast<double>(field.max), {},
+          std::string(field.description)};
+}
+
+template <class Options>
+FieldDescription describe_field(const Options& defaults, const OptionalField<Options>& field) {
+  return {std::string(field.name),
+          "number or none",
+          write_field(defaults, field),
+          field.min,
+          field.max,
+          {},
           std::string(field.description)};
 }
 

@@ -279,6 +279,59 @@ double BlockPartition::frontage_m(std::uint32_t region) const {
   return sum;
 }
 
+/// The label of the contour edge that the half-edge lies on, if it faces a street.
+const blocks::BlockEdge* BlockPartition::street_at(HalfEdge h) const {
+  const auto edge = contour_edge(edge_of(h));
+  if (!edge) return nullptr;
+  const blocks::BlockEdge& label = block_->edges[edge->ring][edge->index];
+  return label.is_street() ? &label : nullptr;
+}
+
+std::vector<BlockPartition::Frontage> BlockPartition::fronts(std::uint32_t region) const {
+  std::vector<Frontage> out;
+  for (const auto& walk : boundary_walks(region)) {
+    const auto continues = [&](std::size_t i) {
+      const auto* label = street_at(walk[i % walk.size()]);
+      const auto* before = street_at(walk[(i + walk.size() - 1) % walk.size()]);
+      return label != nullptr && before != nullptr &&
+             label->logical_street == before->logical_street;
+    };
+    std::size_t start = 0;  // a half-edge that does not go on the front of the one before
+    while (start < walk.size() && continues(start)) ++start;
+    for (std::size_t i = start; i < start + walk.size(); ++i) {
+      const HalfEdge h = walk[i % walk.size()];
+      const blocks::BlockEdge* label = street_at(h);
+      if (label == nullptr) continue;
+      if (i == start || !continues(i)) {
+        out.push_back({{graph_.nodes[origin(graph_, h)]}, *label->logical_street, 0.0});
+      }
+      out.back().line.push_back(graph_.nodes[target(graph_, h)]);
+      out.back().street_width_m = std::max(out.back().street_width_m, label->street_width_m);
+    }
+  }
+  return out;
+}
+
+std::vector<Segment> BlockPartition::inner_edges() const {
+  std::vector<Segment> out;
+  for (const PlanarGraph::Edge& e : graph_.edges) {
+    const auto h = static_cast<HalfEdge>(2 * (&e - graph_.edges.data()));
+    const bool is_between = cell_of_[h] != kOutside && cell_of_[twin(h)] != kOutside &&
+                            region_left_of(h) != region_left_of(twin(h));
+    if (is_between) out.push_back({graph_.nodes[e.from], graph_.nodes[e.to]});
+  }
+  return out;
+}
+
+bool BlockPartition::touches_contour(std::uint32_t region) const {
+  for (const auto& walk : boundary_walks(region)) {
+    for (const HalfEdge h : walk) {
+      if (contour_edge(edge_of(h))) return true;
+    }
+  }
+  return false;
+}
+
 void BlockPartition::join(std::uint32_t region, std::uint32_t other) {
   expects(region != other, "a region joins another one");
   for (const std::uint32_t cell : cells_of_region_[other]) region_of_cell_[cell] = region;
@@ -288,7 +341,7 @@ void BlockPartition::join(std::uint32_t region, std::uint32_t other) {
   region_areas_[region] += region_areas_[other];
 }
 
-void BlockPartition::join_while(const std::function<bool(std::uint32_t)>& must_join) {
+void BlockPartition::join_while(const IsRegion& must_join, const Heir& heir) {
   using Entry = std::pair<double, std::uint32_t>;
   std::set<Entry> open;
   const auto consider = [&](std::uint32_t region) {
@@ -298,7 +351,7 @@ void BlockPartition::join_while(const std::function<bool(std::uint32_t)>& must_j
   while (!open.empty()) {
     const std::uint32_t region = open.begin()->second;
     open.erase(open.begin());
-    const auto neighbour = longest_neighbour(region);
+    const auto neighbour = heir ? heir(region) : longest_neighbour(region);
     if (!neighbour) continue;
     open.erase({region_areas_[*neighbour], *neighbour});
     join(*neighbour, region);

@@ -63,12 +63,28 @@ class BlockPartition {
   /// Length of the region's boundary on contour edges that face a street.
   [[nodiscard]] double frontage_m(std::uint32_t region) const;
 
+  /// A stretch of a region's boundary along one logical street.
+  struct Frontage {
+    std::vector<Point> line;  ///< counter-clockwise, the region on its left; at least two points
+    std::uint32_t logical_street = 0;
+    double street_width_m = 0.0;
+  };
+  /// The region's fronts, in the order of its boundary.
+  [[nodiscard]] std::vector<Frontage> fronts(std::uint32_t region) const;
+
+  /// The edges between two regions, noded: with them as cuts the same division results.
+  [[nodiscard]] std::vector<Segment> inner_edges() const;
+  /// Whether any edge of the region lies on the block's contour.
+  [[nodiscard]] bool touches_contour(std::uint32_t region) const;
+
   /// Joins `other` into `region`, which keeps its number.
   void join(std::uint32_t region, std::uint32_t other);
 
-  /// Joins every region that `must_join` names to its longest neighbour, smallest first, until it
-  /// names none or only one region is left.
-  void join_while(const std::function<bool(std::uint32_t)>& must_join);
+  using IsRegion = std::function<bool(std::uint32_t)>;
+  using Heir = std::function<std::optional<std::uint32_t>(std::uint32_t)>;
+  /// Joins every region that `must_join` names to its longest neighbour, or the one that `heir`
+  /// names, smallest first, until it names none or only one region is left.
+  void join_while(const IsRegion& must_join, const Heir& heir = {});
 
   /// Joins every region smaller than `area_m2`, smallest first, to its longest neighbour.
   void join_slivers(double area_m2);
@@ -84,6 +100,7 @@ class BlockPartition {
   [[nodiscard]] std::uint32_t region_left_of(HalfEdge h) const;
   [[nodiscard]] std::vector<std::vector<HalfEdge>> boundary_walks(std::uint32_t region) const;
   [[nodiscard]] std::optional<ContourEdge> contour_edge(std::uint32_t edge) const;
+  [[nodiscard]] const blocks::BlockEdge* street_at(HalfEdge h) const;
 
   const blocks::Block* block_ = nullptr;
   std::vector<ContourEdge> contour_edges_;  ///< by source index; sources beyond are cuts

@@ -34,28 +34,6 @@ Front point_on_front(const StripLayout& layout, const Strip& strip, double s) {
   return {};
 }
 
-std::vector<double> sample_front(double from_m, double to_m, bool is_closed,
-                                 const SliceSpacing& spacing, Rng& rng) {
-  const double room = to_m - from_m;
-  const int lots = std::max(1, static_cast<int>(std::min(std::round(room / spacing.mean_m), 1e5)));
-  const double deviation = std::sqrt(3.0 * spacing.irregularity);
-  std::vector<double> widths;
-  double sum = 0.0;
-  for (int i = 0; i < lots; ++i) {
-    widths.push_back(
-        std::max(rng.normal(spacing.mean_m, deviation), kMinSpacingShare * spacing.mean_m));
-    sum += widths.back();
-  }
-  std::vector<double> out;
-  double at = from_m;
-  if (is_closed && lots > 1) out.push_back(at);  // a front without ends needs a first cut, too
-  for (int i = 0; i + 1 < lots; ++i) {
-    at += widths[static_cast<std::size_t>(i)] * room / sum;
-    out.push_back(at);
-  }
-  return out;
-}
-
 class Slicer {
  public:
   explicit Slicer(const StripLayout& layout) : layout_(layout) {
@@ -198,15 +176,39 @@ class Slicer {
 
 }  // namespace
 
+std::vector<double> slice_positions(double from_m, double to_m, bool is_closed,
+                                    const SliceSpacing& spacing, Rng& rng) {
+  const double room = to_m - from_m;
+  const int lots = std::max(1, static_cast<int>(std::min(std::round(room / spacing.mean_m), 1e5)));
+  const double deviation = std::sqrt(3.0 * spacing.irregularity);
+  std::vector<double> widths;
+  double sum = 0.0;
+  for (int i = 0; i < lots; ++i) {
+    widths.push_back(
+        std::max(rng.normal(spacing.mean_m, deviation), kMinSpacingShare * spacing.mean_m));
+    sum += widths.back();
+  }
+  std::vector<double> out;
+  double at = from_m;
+  if (is_closed && lots > 1) out.push_back(at);  // a front without ends needs a first cut, too
+  for (int i = 0; i + 1 < lots; ++i) {
+    at += widths[static_cast<std::size_t>(i)] * room / sum;
+    out.push_back(at);
+  }
+  return out;
+}
+
 std::vector<Segment> slice_strips(const StripLayout& layout, const SliceSpacing& spacing,
                                   Rng& rng) {
   Slicer slicer(layout);
   std::vector<Segment> cuts;
+  const std::uint64_t seed = rng();
   for (const Strip& strip : layout.strips) {
+    Rng stream(derive_seed(seed, {static_cast<std::uint64_t>(&strip - layout.strips.data())}));
     const double from = strip.trimmed_start_m;
     const double to = front_length_m(layout, strip) - strip.trimmed_end_m;
     if (to <= from) continue;  // all of the strip changed hands
-    for (const double s : sample_front(from, to, strip.is_closed, spacing, rng)) {
+    for (const double s : slice_positions(from, to, strip.is_closed, spacing, stream)) {
       slicer.slice(point_on_front(layout, strip, s), cuts);
     }
   }

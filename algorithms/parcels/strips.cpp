@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "core/working_grid.h"
+#include "parcels/skeleton_offset.h"
 
 namespace plat::parcels {
 namespace {
 
 using ArcRole = StripLayout::ArcRole;
-constexpr std::uint32_t kNoStrip = 0xffffffffU;
+constexpr std::uint32_t kNoStrip = StripLayout::kNoStrip;
 /// A corner region runs at most this many times its depth along the street that loses it. Where
 /// streets meet at less than 53 degrees, the common boundary is the row's centreline, not a
 /// diagonal, and stays (ADR 0006).
@@ -90,7 +91,9 @@ void assign_roles(StripLayout& layout) {
     const auto strip = [&](int side) { return layout.strip_of_edge[arc.faces[side]]; };
     const auto has_street = [&](int side) { return layout.labels[arc.faces[side]].is_street(); };
     ArcRole role = ArcRole::kWall;
-    if (strip(0) == strip(1))
+    if (strip(0) == kNoStrip || strip(1) == kNoStrip)
+      role = ArcRole::kIgnored;
+    else if (strip(0) == strip(1))
       role = has_street(0) && has_street(1) ? ArcRole::kGuide : ArcRole::kIgnored;
     layout.roles.push_back(role);
   }
@@ -281,6 +284,17 @@ class CornerRegions {
   std::uint32_t far_node_ = 0;
 };
 
+/// The offset contour, but where it would part a patio from a face that no street reaches.
+void add_rim(StripLayout& layout, const std::vector<OffsetEdge>& rim) {
+  for (const OffsetEdge& edge : rim) {
+    if (layout.strip_of_edge[edge.face] == kNoStrip) continue;
+    layout.is_wall_node[edge.from] = layout.is_wall_node[edge.to] = true;
+    layout.rim.push_back(
+        {layout.skeleton.nodes[edge.from].position, layout.skeleton.nodes[edge.to].position});
+  }
+  layout.walls.insert(layout.walls.end(), layout.rim.begin(), layout.rim.end());
+}
+
 }  // namespace
 
 Segment contour_segment(const StripLayout& layout, std::uint32_t edge) {
@@ -299,7 +313,7 @@ double front_length_m(const StripLayout& layout, const Strip& strip) {
 }
 
 Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockEdge> labels,
-                                     double slack_m, CornerScheme scheme) {
+                                     double slack_m, const StripRules& rules) {
   if (std::none_of(labels.begin(), labels.end(), [](const auto& l) { return l.is_street(); })) {
     return fail(FailureCode::kNoStreet, "no edge of the block faces a street");
   }
@@ -309,7 +323,13 @@ Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockE
   layout.contour = std::move(contour);
   layout.labels = std::move(labels);
   layout.slack_m = slack_m;
-  layout.skeleton = *std::move(skeleton);
+  LowerPart lower;
+  if (rules.offset_m) {
+    lower = cut_roof(*skeleton, *rules.offset_m, rules.min_patio_width_m);
+    layout.skeleton = std::move(lower.skeleton);
+  } else {
+    layout.skeleton = *std::move(skeleton);
+  }
   layout.is_wall_node.assign(layout.skeleton.nodes.size(), false);
   // From here on everything is on the working grid: a slice that ends on a wall must end on the
   // wall as it is noded.
@@ -317,7 +337,8 @@ Expected<StripLayout> lay_out_strips(Polygon contour, std::vector<blocks::BlockE
   make_alpha_strips(layout);
   absorb_faces_without_street(layout);
   assign_roles(layout);
-  CornerRegions(layout, scheme).run();
+  CornerRegions(layout, rules.corners).run();
+  add_rim(layout, lower.rim);
   for (std::uint32_t k = 0; k < layout.roles.size(); ++k) {
     if (layout.roles[k] != ArcRole::kWall) continue;
     const auto& arc = layout.skeleton.arcs[k];

@@ -25,6 +25,15 @@ struct PaintOptions {
   }
 };
 
+struct RoofOptions {
+  std::optional<double> height_m = std::nullopt;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        OptionalField{"height_m", &RoofOptions::height_m, 1, 9, "how high the roof is, m"}};
+  }
+};
+
 PaintOptions read(const OptionMap& map) { return from_option_map<PaintOptions>("paint", map); }
 
 /// The message of the InputError that `call` throws.
@@ -51,6 +60,17 @@ TEST(Options, ValuesAreReadByType) {
   EXPECT_EQ(o.width_m, 3.0);
   EXPECT_EQ(o.coats, 4);
   EXPECT_EQ(o.shade, Shade::kLight);
+}
+
+TEST(Options, AnAbsentNumberIsWrittenNone) {
+  const auto roof = [](const OptionMap& map) { return from_option_map<RoofOptions>("roof", map); };
+  EXPECT_EQ(roof({}).height_m, std::nullopt);
+  EXPECT_EQ(roof({{"height_m", 3.5}}).height_m, 3.5);
+  EXPECT_EQ(roof({{"height_m", "none"}}).height_m, std::nullopt);
+  EXPECT_EQ(to_option_map(RoofOptions{}), (OptionMap{{"height_m", "none"}}));
+  EXPECT_EQ(describe_fields<RoofOptions>().at(0).type, "number or none");
+  EXPECT_NE(input_error([&] { roof({{"height_m", 10.0}}); }).find("1..9"), std::string::npos);
+  EXPECT_NE(input_error([&] { roof({{"height_m", "high"}}); }).find("\"none\""), std::string::npos);
 }
 
 TEST(Options, WhatIsWrittenReadsBackTheSame) {

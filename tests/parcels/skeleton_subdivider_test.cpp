@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "parcels/coverage.h"
 #include "parcels/made_blocks.h"
 #include "support/property.h"
 #include "support/synthetic_blocks.h"
@@ -117,6 +120,103 @@ TEST(SkeletonSubdivider, TwinsHaveEquallyManyParcelsOfEqualAreas) {
       for (std::size_t i = 0; i < areas.size(); ++i) EXPECT_NEAR(twins[i], areas[i], 2.0);
     }
   }
+}
+
+double patio_area_m2(const blocks::Block& block, const std::vector<Parcel>& parcels) {
+  double sum = 0.0;
+  for (const Parcel& p : parcels) {
+    if (testing::frontage_by_distance_m(block, p.shape) < kStreetAccess_m) sum += area_m2(p.shape);
+  }
+  return sum;
+}
+
+TEST(SkeletonSubdivider, OffsetLeavesAPatioWithoutAccess) {
+  const blocks::Block block = rectangle_block(150, 100);
+  const auto parcels = divide({.irregularity = 0.0, .offset_m = 30.0}, block);
+  EXPECT_NEAR(patio_area_m2(block, parcels), 90.0 * 40.0, 0.5);
+  EXPECT_EQ(std::count_if(parcels.begin(), parcels.end(),
+                          [&](const Parcel& p) {
+                            return testing::frontage_by_distance_m(block, p.shape) < 1.0;
+                          }),
+            1);
+  EXPECT_EQ(patio_area_m2(block, divide({}, block)), 0.0) << "no offset, no patio";
+}
+
+TEST(SkeletonSubdivider, InnerDivisionDividesThePatio) {
+  const blocks::Block block = rectangle_block(250, 200);
+  const auto count = [&](InnerDivision inner) {
+    return divide({.offset_m = 30.0, .inner = inner}, block).size();
+  };
+  EXPECT_GT(count(InnerDivision::kObb), count(InnerDivision::kKeep) + 10);
+  EXPECT_GT(count(InnerDivision::kSkeleton), count(InnerDivision::kKeep) + 10);
+}
+
+TEST(SkeletonSubdivider, WithPatiosParcelsAreACoverage) {
+  Rng rng = testing::property_rng("Skeleton.Patios");
+  int patios = 0;
+  for (Polygon& polygon : testing::synthetic_blocks(rng, testing::iterations(200))) {
+    blocks::Block block = blocks::block_from_contour(BlockId{}, std::move(polygon));
+    if (rng.index(3) == 0) block = testing::with_streets_on(std::move(block), {0, 2});
+    const auto inner = static_cast<InnerDivision>(rng.index(3));
+    const auto parcels = divide({.offset_m = rng.uniform(3.0, 40.0), .inner = inner}, block, rng());
+    const auto defect = find_coverage_defect(block.contour, parcels, kContourTolerance_m);
+    ASSERT_FALSE(defect) << defect->message;
+    patios += patio_area_m2(block, parcels) > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(patios, testing::iterations(200) / 4);
+}
+
+TEST(SkeletonSubdivider, RowsTooShallowForTwoAreOne) {
+  // Expected depth 525 / 15 = 35 m: two rows of 10 m are too shallow, one of 20 m is what fits.
+  const blocks::Block block = rectangle_block(120, 20);
+  const auto one = divide({.irregularity = 0.0}, block);
+  ASSERT_EQ(one.size(), 8U);
+  for (const Parcel& p : one) EXPECT_NEAR(area_m2(p.shape), 15.0 * 20.0, 0.5);
+  const auto two = divide({.area_min_m2 = 0.0, .irregularity = 0.0, .shallow_share = 0.0}, block);
+  EXPECT_EQ(two.size(), 16U);
+}
+
+TEST(SkeletonSubdivider, ShallowRowsFaceTheWiderStreet) {
+  blocks::Block block = rectangle_block(120, 20);
+  // The front of the wider street bends, that of the other one is straight: slices stay
+  // perpendicular to the wider one's.
+  block.contour.outer = {{0, 0}, {120, 12}, {120, 32}, {0, 20}};
+  block.edges[0][0].street_width_m = 30.0;
+  const auto parcels = divide({.irregularity = 0.0}, block);
+  ASSERT_GT(parcels.size(), 4U);
+  const Point along = normalized(Point{120, 12});
+  int across = 0;
+  for (const Parcel& p : parcels) {
+    for_each_edge(p.shape, [&](const Segment& s) {
+      across += std::abs(dot(normalized(s.b - s.a), along)) < 0.01 ? 1 : 0;
+    });
+  }
+  EXPECT_GE(across, 2 * static_cast<int>(parcels.size() - 1));
+}
+
+TEST(SkeletonSubdivider, LargeLotsAreCutOnceMoreFromTheStreet) {
+  const blocks::Block block = rectangle_block(200, 160);
+  const auto parcels = divide({.irregularity = 0.0}, block);
+  const auto uncut = divide({.area_max_m2 = 1e9, .irregularity = 0.0, .shallow_share = 0.0}, block);
+  EXPECT_GT(parcels.size(), uncut.size());
+  for (const Parcel& p : parcels) {
+    const double front_m = testing::frontage_by_distance_m(block, p.shape);
+    EXPECT_TRUE(area_m2(p.shape) <= 900.0 || front_m < 15.0 + 0.1)
+        << "only a lot too narrow to be halved stays large";
+  }
+}
+
+TEST(SkeletonSubdivider, TraceShowsTheStepsOfTheSameDivision) {
+  const blocks::Block block = rectangle_block(150, 100);
+  const SkeletonSubdivider subdivider({.irregularity = 0.0, .offset_m = 30.0});
+  Rng rng(1);
+  SubdivisionTrace trace;
+  EXPECT_EQ(subdivider.subdivide(block, rng, trace).value(), divide(subdivider.options(), block));
+  std::map<TraceStep, int> count;
+  for (const auto& line : trace.lines()) ++count[line.step];
+  EXPECT_EQ(count[TraceStep::kSkeletonArc], 4) << "the diagonals up to the offset";
+  EXPECT_EQ(count[TraceStep::kOffset], 4);
+  EXPECT_GT(count[TraceStep::kSlice], 10);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ StripLayout layout_of(const blocks::Block& block, const std::vector<double>& wid
   std::vector<blocks::BlockEdge> labels = block.edges[0];
   for (std::size_t i = 0; i < labels.size(); ++i)
     labels[i].street_width_m = widths[i % widths.size()];
-  return lay_out_strips(block.contour, labels, 0.0, scheme).value();
+  return lay_out_strips(block.contour, labels, 0.0, {.corners = scheme}).value();
 }
 
 double trimmed_m(const StripLayout& layout, std::uint32_t edge) {
