@@ -48,15 +48,12 @@ std::vector<Segment> street_edges(const blocks::Block& block) {
   return out;
 }
 
-/// How far a lot reaches from the streets.
-double depth_m(const Polygon& lot, const std::vector<Segment>& streets) {
-  double deepest = 0.0;
-  for (const Point p : lot.outer) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Segment& s : streets) nearest = std::min(nearest, distance(s, p));
-    deepest = std::max(deepest, nearest);
-  }
-  return deepest;
+/// Whether no vertex of the lot is `depth_m` or more from the streets.
+bool is_shallow(const Polygon& lot, const std::vector<Segment>& streets, double depth_m) {
+  return std::all_of(lot.outer.begin(), lot.outer.end(), [&](Point p) {
+    return std::any_of(streets.begin(), streets.end(),
+                       [&](const Segment& s) { return distance(s, p) < depth_m; });
+  });
 }
 
 /// The point `s` metres along the line, with the direction of the line there.
@@ -154,7 +151,7 @@ std::vector<std::vector<std::uint32_t>> StripLots::shallow_rows(const LotRules& 
   const std::vector<Segment> streets = street_edges(*block_);
   for (const std::uint32_t region : partition_.regions()) {
     if (is_patio_[region] || partition_.frontage_m(region) < kStreetAccess_m) continue;
-    if (depth_m(partition_.polygon(region), streets) >= rules.shallow_m) continue;
+    if (!is_shallow(partition_.polygon(region), streets, rules.shallow_m)) continue;
     lots[region] = {longest(partition_.fronts(region)).logical_street,
                     partition_.borders(region),
                     0.0,
