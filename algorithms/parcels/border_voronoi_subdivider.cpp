@@ -43,23 +43,16 @@ Expected<std::vector<Parcel>> BorderVoronoiSubdivider::subdivide(const blocks::B
                             options_.spacing_m, total_m));
   }
   std::vector<Point> sites;
-  const auto add_site = [&](const Front& front, double s_m) {
-    sites.push_back(site_behind(block.contour, place_at(front, s_m), options_.setback_m));
-  };
   for (const Front& front : fronts) {
     const double length = length_m(front);
     const int count = static_cast<int>(std::round(length / options_.spacing_m));
     if (count == 0) continue;
     const std::vector<double> ends =
         random_divisions(length, count, options_.spacing_deviation, rng);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-      add_site(front, 0.5 * (ends[i] + ends[i + 1]));
-  }
-  if (sites.empty()) {
-    const auto longest =
-        std::max_element(fronts.begin(), fronts.end(),
-                         [](const Front& a, const Front& b) { return length_m(a) < length_m(b); });
-    add_site(*longest, 0.5 * length_m(*longest));
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const FrontPlace place = place_at(front, 0.5 * (ends[i] + ends[i + 1]));
+      sites.push_back(site_behind(block.contour, place, options_.setback_m));
+    }
   }
   return partition_by_sites(block, std::move(sites)).map([](const BlockPartition& partition) {
     return partition.parcels();

@@ -9,9 +9,9 @@ namespace plat::parcels {
 
 /// Divides a block by the Voronoi diagram of sites along its street border.
 ///
-/// Guarantees, besides the family's contract: 1. every parcel holds exactly one site;  2. a front
-/// without a corner gets as many sites as mean spacings fit in its length, rounded; the block at
-/// least one.
+/// Guarantees, besides the family's contract: 1. every parcel holds exactly one site, where there
+/// is any;  2. a front without a corner gets as many sites as mean spacings fit in its length,
+/// rounded; a block without a site is one parcel.
 /// Paper:     [VKW12, fig. 2b], "the Voronoi tessellation of points near the border of the street".
 /// Deviation: the figure is all there is of the method: number, spacing and setback of the sites
 ///            are ours (ADR 0011).

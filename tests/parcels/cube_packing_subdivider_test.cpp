@@ -55,6 +55,17 @@ TEST(CubePackingSubdivider, LandBehindTheLotsIsJoinedToThem) {
   for (const Parcel& parcel : parcels) EXPECT_NEAR(area_m2(parcel.shape), 640.0, 0.5);
 }
 
+TEST(CubePackingSubdivider, LandLeftOverJoinsTheLotOfTheLongestBoundary) {
+  // 10 m of front are left over on either side: beside a lot 30 m deep and behind one 12 m deep,
+  // and the other way round. Both pieces go to the lots beside which they are longest.
+  const blocks::Block block = testing::with_streets_on(rectangle_block(100, 42), {0, 2});
+  const auto parcels = divide(
+      {.lot_width_m = 30.0, .lot_depth_m = 30.0, .width_deviation = 0.0, .depth_min_share = 0.4},
+      block);
+  ASSERT_EQ(parcels.size(), 6U);
+  EXPECT_NEAR(testing::sorted_areas(parcels).front(), 40.0 * 30.0, 10.0);
+}
+
 TEST(CubePackingSubdivider, ConcaveAreasMakeBadlyFormedParcels) {
   const Options options{.lot_width_m = 15.0, .lot_depth_m = 30.0, .width_deviation = 0.0};
   const blocks::Block straight = rectangle_block(150, 60);
