@@ -216,8 +216,15 @@ SkeletonSubdivider SkeletonSubdivider::fitted(const ParcelStyle& style) const {
       bounds_around(style.area_mean_m2, style.area_deviation_m2, o.fit_deviations, -1e9);
   const Bounds width =
       bounds_around(style.width_mean_m, style.width_deviation_m, o.fit_deviations, -1e6);
-  o.area_min_m2 = area.low;
-  o.area_max_m2 = std::max(1.0, area.high);
+  if (style.count <= 1) {
+    o.area_min_m2 = area.low;
+    o.area_max_m2 = kUndivided_m2;
+  } else {
+    // A lot below half the mean is nearer to it when it is merged, one above four thirds when it is
+    // halved: bounds nearer than that would move lots away from the mean.
+    o.area_min_m2 = std::min(area.low, 0.5 * style.area_mean_m2);
+    o.area_max_m2 = std::max({1.0, area.high, 4.0 / 3.0 * style.area_mean_m2});
+  }
   o.width_min_m = width.low;
   o.width_max_m = std::max(0.5, width.high);  // observed slivers must not leave the option's range
   return SkeletonSubdivider(o);

@@ -219,5 +219,37 @@ TEST(SkeletonSubdivider, TraceShowsTheStepsOfTheSameDivision) {
   EXPECT_GT(count[TraceStep::kSlice], 10);
 }
 
+ParcelStyle style_with(std::size_t count, double area_m2, double deviation_m2) {
+  ParcelStyle style;
+  style.count = count;
+  style.area_mean_m2 = area_m2;
+  style.area_deviation_m2 = deviation_m2;
+  style.width_mean_m = 15.0;
+  style.width_deviation_m = 1.0;
+  return style;
+}
+
+TEST(SkeletonSubdivider, FittedBoundsAreMeanAndDeviations) {
+  const auto fit = [](const ParcelStyle& style) {
+    return SkeletonSubdivider(Options{}).fitted(style).options();
+  };
+  const Options wide = fit(style_with(20, 400.0, 300.0));
+  EXPECT_EQ(wide.area_min_m2, -200.0);
+  EXPECT_EQ(wide.area_max_m2, 1000.0);
+  EXPECT_EQ(wide.width_min_m, 13.0);
+  EXPECT_EQ(wide.width_max_m, 17.0);
+  const Options narrow = fit(style_with(20, 300.0, 1.0));
+  EXPECT_EQ(narrow.area_min_m2, 150.0) << "merging a lot above half the mean moves it away";
+  EXPECT_EQ(narrow.area_max_m2, 400.0) << "as does halving one below four thirds";
+}
+
+TEST(SkeletonSubdivider, ABlockObservedAsOneParcelStaysOne) {
+  const blocks::Block block = rectangle_block(120, 50);
+  ParcelStyle style = style_with(1, 6000.0, 0.0);
+  style.width_mean_m = 50.0;
+  Rng rng(1);
+  EXPECT_EQ(SkeletonSubdivider(Options{}).fitted(style).subdivide(block, rng)->size(), 1U);
+}
+
 }  // namespace
 }  // namespace plat::parcels
