@@ -115,7 +115,8 @@ void add_subdivide_command(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--trace", args->trace,
                       "GeoPackage to write as well: inner steps of the strategy, where it shows "
-                      "them. obb: lot_boxes and splits, numbered by depth");
+                      "them. obb: lot_boxes and splits, numbered by depth; skeleton: "
+                      "skeleton_faces and _arcs, offset_contour, walls, beta_strips, slices");
   command->footer(
       "Example:\n  plat subdivide --blocks city.gpkg:blocks --streets city.gpkg:streets --strategy "
       "obb \\\n"

@@ -8,6 +8,7 @@
 #include "core/validity.h"
 #include "parcels/contour_simplification.h"
 #include "parcels/obb_subdivider.h"
+#include "parcels/skeleton_steps.h"
 #include "parcels/strip_lots.h"
 
 namespace plat::parcels {
@@ -185,15 +186,7 @@ Expected<std::vector<Parcel>> SkeletonSubdivider::subdivide(const blocks::Block&
                                                             SubdivisionTrace& trace) const {
   const auto steps = plan(block, rng);
   if (!steps) return tl::unexpected<Failure>(steps.error());
-  const StripLayout& layout = steps->layout;
-  for (const auto& arc : layout.skeleton.arcs) {
-    trace.line(
-        TraceStep::kSkeletonArc, 0,
-        {layout.skeleton.nodes[arc.lower].position, layout.skeleton.nodes[arc.upper].position});
-  }
-  for (const Segment& edge : layout.rim) trace.line(TraceStep::kOffset, 0, edge);
-  for (const Segment& wall : layout.walls) trace.line(TraceStep::kWall, 0, wall);
-  for (const Segment& slice : steps->slices) trace.line(TraceStep::kSlice, 0, slice);
+  show_steps(steps->block, steps->layout, steps->slices, trace);
   return divide(*steps, rng);
 }
 

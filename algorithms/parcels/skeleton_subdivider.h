@@ -95,6 +95,7 @@ class SkeletonSubdivider {
   explicit SkeletonSubdivider(const Options& options) : options_(options) {}
 
   [[nodiscard]] Expected<std::vector<Parcel>> subdivide(const blocks::Block& block, Rng& rng) const;
+  /// The same parcels, the steps shown (skeleton_steps.h).
   [[nodiscard]] Expected<std::vector<Parcel>> subdivide(const blocks::Block& block, Rng& rng,
                                                         SubdivisionTrace& trace) const;
   [[nodiscard]] SkeletonSubdivider fitted(const ParcelStyle& style) const;

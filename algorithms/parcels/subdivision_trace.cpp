@@ -14,6 +14,8 @@ std::string_view trace_step_name(TraceStep step) {
       return "offset_contour";
     case TraceStep::kWall:
       return "walls";
+    case TraceStep::kStrip:
+      return "beta_strips";
     case TraceStep::kSlice:
       return "slices";
     case TraceStep::kLotBox:
@@ -25,7 +27,8 @@ std::string_view trace_step_name(TraceStep step) {
 }
 
 bool is_area(TraceStep step) {
-  return step == TraceStep::kSkeletonFace || step == TraceStep::kLotBox;
+  return step == TraceStep::kSkeletonFace || step == TraceStep::kStrip ||
+         step == TraceStep::kLotBox;
 }
 
 }  // namespace plat::parcels

@@ -12,14 +12,15 @@ namespace plat::parcels {
 /// An inner step of a subdivision, as figures and people who debug want to see it.
 enum class TraceStep : std::uint8_t {
   kSkeletonFace,  ///< area: face of the straight skeleton; number = its alpha-strip
-  kSkeletonArc,   ///< line: arc of the straight skeleton; number 0
+  kSkeletonArc,   ///< line: arc of the straight skeleton; number 1 between two alpha-strips, else 0
   kOffset,        ///< line: edge of the offset contour C'(B); number 0
   kWall,          ///< line: boundary between two beta-strips; number 0
-  kSlice,         ///< line: part of a cut between two lots of a strip; number = its strip
+  kStrip,         ///< area: beta-strip (or patio); number = its place along the contour
+  kSlice,         ///< line: piece of a cut between two lots of a strip; number 0
   kLotBox,        ///< area: oriented box of a lot that is split; number = depth of the recursion
   kSplit          ///< line: split of a lot; number = depth of the recursion, from 0
 };
-inline constexpr std::size_t kTraceSteps = 7;
+inline constexpr std::size_t kTraceSteps = 8;
 
 /// What a layer or a column calls the step.
 std::string_view trace_step_name(TraceStep step);
