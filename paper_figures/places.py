@@ -59,23 +59,38 @@ class Place:
         if blocks.empty:
             raise FigureError(f"{window.dataset}: no block in the window")
         # Debian's geopandas has no spatial index without rtree; a window is small.
-        land = prep(unary_union(list(blocks.geometry)))
-        parcels = parcels[[land.contains(p.representative_point()) for p in parcels.geometry]]
+        self._land = prep(unary_union(list(blocks.geometry)))
+        parcels = self._inside(parcels)
         blocks.reset_index(drop=True).to_file(self.file, layer="blocks", driver="GPKG")
         parcels.to_file(self.file, layer="parcels", driver="GPKG")
         self.blocks, self.parcels = blocks.reset_index(drop=True), parcels.reset_index(drop=True)
 
     def subdivide(self, strategy, name=None, fit=True, blocks=None, seed=1, **settings):
         """Parcels of a strategy; options are fitted to the observed parcels block by block unless `fit` is false."""
-        return subdivide(self.figure, name or strategy, f"{blocks or self.file}:blocks", strategy, settings, seed,
-                         self.streets, f"{self.file}:parcels" if fit else "")
+        name = name or strategy
+        if self.streets:
+            return subdivide(self.figure, name, f"{blocks or self.file}:blocks", strategy, settings, seed, self.streets,
+                             f"{self.file}:parcels" if fit else "")
+        # Without centrelines a block's streets are the gaps to its neighbours: those outside the window are needed.
+        town = self.figure.path("town.gpkg")
+        whole = subdivide(self.figure, f"{name}_town", f"{self.figure.path('blocks.gpkg')}:blocks", strategy, settings, seed,
+                          "", f"{town}:parcels" if fit else "", count=False)
+        out = self.figure.path(f"{name}.gpkg")
+        for key in ("parcels", "blocks"):
+            self._inside(layer(whole, key)).to_file(out, layer=key, driver="GPKG")
+        self.figure.note_failures(name, len(self._inside(layer(whole, "failures"))), len(self.blocks))
+        return out
+
+    def _inside(self, frame):
+        """The features whose middle lies in a block of this place."""
+        return frame[[self._land.contains(g.representative_point()) for g in frame.geometry]] if len(frame) else frame
 
     def compare(self, generated, name):
         """The statistics of a generated layer beside the observed one (`plat compare`)."""
         return Comparison(self.figure, f"{self.file}:parcels", f"{generated}:parcels", name)
 
 
-def subdivide(figure, name, blocks, strategy, settings, seed=1, streets="", observed="", trace=None):
+def subdivide(figure, name, blocks, strategy, settings, seed=1, streets="", observed="", trace=None, count=True):
     """Path of the GeoPackage that `plat subdivide` writes."""
     out = figure.path(f"{name}.gpkg")
     command = ["subdivide", "--blocks", blocks, "--strategy", strategy, "--seed", seed, "--out", out]
@@ -88,7 +103,8 @@ def subdivide(figure, name, blocks, strategy, settings, seed=1, streets="", obse
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
     figure.plat(*command)
-    figure.note_failures(name, len(layer(out, "failures")), len(layer(out, "blocks")) )
+    if count:
+        figure.note_failures(name, len(layer(out, "failures")), len(layer(out, "blocks")))
     return out
 
 
