@@ -5,6 +5,7 @@
 #include "blocks/block.h"
 #include "blocks/blocks_from_parcels.h"
 #include "blocks/dual_graph.h"
+#include "blocks/face_blocks.h"
 #include "core/parallel.h"
 #include "streets/street_classes.h"
 #include "streets/street_network.h"
@@ -13,9 +14,7 @@ namespace plat::blocks {
 
 struct ExtractionOptions {
   streets::BoundingClasses bounding = streets::BoundingClasses::kStreets;
-  double min_area_m2 = 20.0;         ///< a smaller block is a failure row: traffic islands, slivers
-  double simplify_m = 0.02;          ///< how far a contour that had to be cut may move
-  std::size_t max_vertices = 20000;  ///< of one block
+  FaceOptions face;
 };
 
 struct BlocksOfNetwork {

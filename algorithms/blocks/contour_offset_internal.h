@@ -1,19 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "blocks/face_blocks.h"
 #include "core/polygon.h"
 
 namespace plat::blocks::detail {
-
-/// A piece of a street on a face's boundary, the face on its left.
-struct StreetSide {
-  Segment segment;
-  double half_width_m = 0.0;
-  std::uint32_t street = 0;
-};
 
 /// The ring inset by each side's own half width, where that is a matter of meeting neighbouring
 /// offset lines: empty where a side vanishes, so that the ring must be cut instead. The ring may

@@ -28,6 +28,16 @@ std::string_view failure_name(FailureCode code) {
       return "no_observation";
     case FailureCode::kNoStreet:
       return "no_street";
+    case FailureCode::kUnknownEntity:
+      return "unknown_entity";
+    case FailureCode::kOutOfRange:
+      return "out_of_range";
+    case FailureCode::kStreetCollapsed:
+      return "street_collapsed";
+    case FailureCode::kStreetsCross:
+      return "streets_cross";
+    case FailureCode::kFaceInverted:
+      return "face_inverted";
   }
   return "unknown";
 }

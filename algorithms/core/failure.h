@@ -22,6 +22,12 @@ enum class FailureCode : int {
   kNoConvergence = 10,   ///< an iteration reached its bound
   kNoObservation = 11,   ///< no observed parcels to fit the options to
   kNoStreet = 12,        ///< no edge of the block faces a street
+  // Of edits (editing/editor.h):
+  kUnknownEntity = 20,    ///< no node, street, block or parcel has this id
+  kOutOfRange = 21,       ///< a width, factor, angle or place that no city has
+  kStreetCollapsed = 22,  ///< a street would have no length left
+  kStreetsCross = 23,     ///< streets would cross or touch where they have no node
+  kFaceInverted = 24,     ///< a face would be turned inside out, or a street jump over another
 };
 
 /// The code's name in tables and layers, e.g. "not_simple".

@@ -120,6 +120,28 @@ class EdgesBelow {
   std::vector<std::vector<std::uint32_t>> columns_;
 };
 
+/// The loops of a closed walk whose i-th step runs from origin_of(i) to target_of(i).
+template <class Step, class OriginOf, class TargetOf>
+std::vector<std::vector<Step>> split_walk(std::span<const Step> walk, OriginOf origin_of,
+                                          TargetOf target_of) {
+  std::vector<std::vector<Step>> rings;
+  std::vector<std::size_t> open;
+  for (std::size_t step = 0; step < walk.size(); ++step) {
+    open.push_back(step);
+    const auto reached = target_of(step);
+    // The loop that just closed, if any, starts at the last open step that left this place.
+    for (std::size_t i = open.size(); i-- > 0;) {
+      if (origin_of(open[i]) != reached) continue;
+      std::vector<Step> ring;
+      for (std::size_t k = i; k < open.size(); ++k) ring.push_back(walk[open[k]]);
+      open.resize(i);
+      if (ring.size() >= 3) rings.push_back(std::move(ring));
+      break;
+    }
+  }
+  return rings;
+}
+
 }  // namespace
 
 PlanarFaces find_faces(const PlanarGraph& graph) {
@@ -233,21 +255,9 @@ PlanarGraph without_edges(const PlanarGraph& graph, const std::vector<bool>& is_
 
 std::vector<std::vector<HalfEdge>> split_at_repeated_nodes(const PlanarGraph& graph,
                                                            std::span<const HalfEdge> walk) {
-  std::vector<std::vector<HalfEdge>> rings;
-  std::vector<HalfEdge> open;
-  for (const HalfEdge h : walk) {
-    open.push_back(h);
-    const std::uint32_t reached = target(graph, h);
-    // The loop that just closed, if any, starts at the last open half-edge that left this node.
-    for (std::size_t i = open.size(); i-- > 0;) {
-      if (origin(graph, open[i]) != reached) continue;
-      std::vector<HalfEdge> ring(open.begin() + static_cast<std::ptrdiff_t>(i), open.end());
-      open.resize(i);
-      if (ring.size() >= 3) rings.push_back(std::move(ring));
-      break;
-    }
-  }
-  return rings;
+  return split_walk(
+      walk, [&](std::size_t i) { return origin(graph, walk[i]); },
+      [&](std::size_t i) { return target(graph, walk[i]); });
 }
 
 Ring ring_of(const PlanarGraph& graph, std::span<const HalfEdge> walk) {
@@ -258,11 +268,19 @@ Ring ring_of(const PlanarGraph& graph, std::span<const HalfEdge> walk) {
 }
 
 Polygon polygon_of(const PlanarGraph& graph, std::span<const std::vector<HalfEdge>> walks) {
+  std::vector<Ring> rings;
+  rings.reserve(walks.size());
+  for (const auto& walk : walks) rings.push_back(ring_of(graph, walk));
+  return polygon_of_walks(rings);
+}
+
+Polygon polygon_of_walks(std::span<const Ring> walks) {
   Polygon polygon;
   double outer_area = 0.0;
-  for (const auto& walk : walks) {
-    for (const auto& part : split_at_repeated_nodes(graph, walk)) {
-      Ring ring = ring_of(graph, part);
+  for (const Ring& walk : walks) {
+    const auto target_of = [&](std::size_t i) { return walk[i + 1 == walk.size() ? 0 : i + 1]; };
+    for (Ring& ring : split_walk(
+             std::span<const Point>(walk), [&](std::size_t i) { return walk[i]; }, target_of)) {
       const double area = signed_area_m2(ring);
       if (area < 0.0) {
         polygon.holes.push_back(std::move(ring));

@@ -51,4 +51,7 @@ Polygon polygon_of(const PlanarGraph& graph, const Face& face);
 /// nodes.
 Polygon polygon_of(const PlanarGraph& graph, std::span<const std::vector<HalfEdge>> walks);
 
+/// The same of walks given as rings, split at repeated points.
+Polygon polygon_of_walks(std::span<const Ring> walks);
+
 }  // namespace plat
