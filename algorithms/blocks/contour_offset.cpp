@@ -63,17 +63,19 @@ Ring inset_ring(std::span<const StreetSide> ring) {
   return out;
 }
 
-std::vector<Polygon> street_strips(std::span<const StreetSide> walk) {
+std::vector<Polygon> street_strips(std::span<const StreetSide> walk,
+                                   const std::vector<bool>& is_wanted) {
   std::vector<Polygon> out;
   const std::size_t n = walk.size();
+  const auto wants = [&](std::size_t i) { return is_wanted.empty() || is_wanted[i]; };
   for (std::size_t i = 0; i < n; ++i) {
     const StreetSide& side = walk[i];
     const auto& [a, b] = side.segment;
     const Point across = side.half_width_m * perpendicular(normalized(b - a));
-    out.push_back({{a, b, b + across, a + across}, {}});
+    if (wants(i)) out.push_back({{a, b, b + across, a + across}, {}});
     const StreetSide& before = walk[(i + n - 1) % n];
     const Point arriving = before.segment.b - before.segment.a;
-    if (cross(arriving, b - a) >= 0.0) continue;
+    if (cross(arriving, b - a) >= 0.0 || !(wants(i) || wants((i + n - 1) % n))) continue;
     const Point end = a + before.half_width_m * perpendicular(normalized(arriving));
     Ring wedge{a, a + across};
     const std::vector<Point> corner = corner_points(before, side);

@@ -15,6 +15,8 @@ Ring inset_ring(std::span<const StreetSide> ring);
 
 /// What the streets of one boundary walk take from the face: a strip per side, and a wedge where
 /// the walk turns right, so that corners of the street are filled. Same rules as inset_ring().
-std::vector<Polygon> street_strips(std::span<const StreetSide> walk);
+/// @param is_wanted  only strips of these sides, and wedges that they are at; empty: all
+std::vector<Polygon> street_strips(std::span<const StreetSide> walk,
+                                   const std::vector<bool>& is_wanted = {});
 
 }  // namespace plat::blocks::detail

@@ -30,6 +30,10 @@ class FaceInset {
       out.polygons.push_back(*std::move(contour));
       return out;
     }
+    if (options_.dead_ends == DeadEndCut::kDeadEnds && face_.islands.empty()) {
+      detail::Admitted found = cut_dead_ends();
+      if (!found.polygons.empty()) return found;
+    }
     return cut_contours();
   }
 
@@ -59,32 +63,66 @@ class FaceInset {
   }
 
  private:
+  /// The offset line of sides that visit no place twice; nullopt where one of them vanishes.
+  [[nodiscard]] static std::optional<Ring> simple_inset(std::span<const StreetSide> sides) {
+    std::vector<Point> visited;
+    for (const StreetSide& side : sides) visited.push_back(side.segment.a);
+    std::sort(visited.begin(), visited.end());
+    if (std::adjacent_find(visited.begin(), visited.end()) != visited.end()) return std::nullopt;
+    Ring inset = detail::inset_ring(sides);
+    if (inset.empty() || signed_area_m2(inset) <= 0.0) return std::nullopt;
+    return inset;
+  }
+
   /// nullopt where the face has dead ends, islands or narrow places.
   [[nodiscard]] std::optional<Polygon> simple_contour() const {
     if (!face_.islands.empty()) return std::nullopt;
-    std::vector<Point> visited;
-    for (const StreetSide& side : face_.outer) visited.push_back(side.segment.a);
-    std::sort(visited.begin(), visited.end());
-    if (std::adjacent_find(visited.begin(), visited.end()) != visited.end()) return std::nullopt;
-    const Ring inset = detail::inset_ring(face_.outer);
-    if (inset.empty() || signed_area_m2(inset) <= 0.0) return std::nullopt;
-    auto contour = admit_polygon({inset, {}}, options_.max_vertices);
+    const auto inset = simple_inset(face_.outer);
+    if (!inset) return std::nullopt;
+    auto contour = admit_polygon({*inset, {}}, options_.max_vertices);
     if (!contour || area_m2(*contour) < options_.min_area_m2) return std::nullopt;
     return *std::move(contour);
   }
 
-  [[nodiscard]] detail::Admitted cut_contours() const {
+  /// Whether each side of the outer walk is walked the other way, too: a dead end.
+  [[nodiscard]] std::vector<bool> dead_ends() const {
+    std::vector<std::pair<Point, Point>> walked;
+    for (const StreetSide& side : face_.outer) walked.emplace_back(side.segment.a, side.segment.b);
+    std::sort(walked.begin(), walked.end());
+    std::vector<bool> out;
+    for (const StreetSide& side : face_.outer) {
+      out.push_back(std::binary_search(walked.begin(), walked.end(),
+                                       std::pair(side.segment.b, side.segment.a)));
+    }
+    return out;
+  }
+
+  /// The contour without dead ends, the dead ends cut out of it; nothing where that is not so
+  /// simple.
+  [[nodiscard]] detail::Admitted cut_dead_ends() const {
+    const std::vector<bool> is_dead = dead_ends();
+    std::vector<StreetSide> ring;
+    for (std::size_t i = 0; i < is_dead.size(); ++i) {
+      if (is_dead[i]) continue;
+      const bool goes_on = ring.empty() || ring.back().segment.b == face_.outer[i].segment.a;
+      if (!goes_on) return {};  // a dead end leads to another ring
+      ring.push_back(face_.outer[i]);
+    }
+    if (ring.size() < 3) return {};
+    const auto inset = simple_inset(ring);
+    if (!inset) return {};
+    const auto contour = admit_polygon({*inset, {}}, options_.max_vertices);
+    if (!contour) return {};
     const detail::Geos geos;
     std::vector<detail::GeosShape> strips;
-    std::vector<Ring> walks;
-    const auto add_walk = [&](const std::vector<StreetSide>& walk) {
-      for (const Polygon& strip : detail::street_strips(walk)) strips.push_back(geos.from(strip));
-      Ring& ring = walks.emplace_back();
-      for (const StreetSide& side : walk) ring.push_back(side.segment.a);
-    };
-    add_walk(face_.outer);
-    for (const auto& island : face_.islands) add_walk(island);
-    const Polygon whole = polygon_of_walks(walks);
+    for (const Polygon& strip : detail::street_strips(face_.outer, is_dead))
+      strips.push_back(geos.from(strip));
+    return regions_left(geos, *contour, std::move(strips));
+  }
+
+  /// `whole` without the strips, as usable regions.
+  [[nodiscard]] detail::Admitted regions_left(const detail::Geos& geos, const Polygon& whole,
+                                              std::vector<detail::GeosShape> strips) const {
     const auto streets = geos.union_of(std::move(strips));
     const auto left = geos.difference(geos.from(whole).get(), streets.get());
     detail::Admitted out;
@@ -99,6 +137,22 @@ class FaceInset {
       std::move(part.polygons.begin(), part.polygons.end(), std::back_inserter(out.polygons));
       std::move(part.refused.begin(), part.refused.end(), std::back_inserter(out.refused));
     }
+    return out;
+  }
+
+  [[nodiscard]] detail::Admitted cut_contours() const {
+    const detail::Geos geos;
+    std::vector<detail::GeosShape> strips;
+    std::vector<Ring> walks;
+    const auto add_walk = [&](const std::vector<StreetSide>& walk) {
+      for (const Polygon& strip : detail::street_strips(walk)) strips.push_back(geos.from(strip));
+      Ring& ring = walks.emplace_back();
+      for (const StreetSide& side : walk) ring.push_back(side.segment.a);
+    };
+    add_walk(face_.outer);
+    for (const auto& island : face_.islands) add_walk(island);
+    const Polygon whole = polygon_of_walks(walks);
+    detail::Admitted out = regions_left(geos, whole, std::move(strips));
     if (out.polygons.empty() && out.refused.empty()) {
       out.refused.push_back(
           {{FailureCode::kTooSmall,

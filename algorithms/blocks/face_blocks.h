@@ -11,8 +11,16 @@
 
 namespace plat::blocks {
 
+/// What is cut out of a face that has dead ends.
+enum class DeadEndCut {
+  kAllStreets,  ///< every street around the face, as where it has islands or narrow places
+  kDeadEnds,    ///< dead ends only, out of the contour without them: several times faster; corners
+                ///< differ by what simplification moves
+};
+
 /// How a face of the street network becomes blocks.
 struct FaceOptions {
+  DeadEndCut dead_ends = DeadEndCut::kAllStreets;
   double min_area_m2 = 20.0;         ///< a smaller block is a failure row: traffic islands, slivers
   double simplify_m = 0.02;          ///< how far a contour that had to be cut may move
   std::size_t max_vertices = 20000;  ///< of one block
