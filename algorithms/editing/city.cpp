@@ -65,6 +65,11 @@ City make_city(const streets::StreetNetwork& network, const CityOptions& options
   return city;
 }
 
+City with_options(City city, const CityOptions& options) {
+  city.options_ = options;
+  return city;
+}
+
 streets::StreetNetwork network_of(const City& city, std::vector<StreetId>* ids) {
   streets::StreetNetwork network;
   city.nodes().for_each(

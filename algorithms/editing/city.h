@@ -105,7 +105,7 @@ struct CityOptions {
   Style style;             ///< of blocks that inherit none
   std::uint64_t seed = 1;  ///< of the city; a block's own comes from this and its id
   parcels::ParcelMatching matching = parcels::ParcelMatching::kRelativeDistances;
-  blocks::FaceOptions face;
+  blocks::FaceOptions face{.dead_ends = blocks::DeadEndCut::kDeadEnds};
   Jobs jobs;
 };
 
@@ -151,6 +151,7 @@ class City {
 
  private:
   friend class Change;
+  friend City with_options(City city, const CityOptions& options);
 
   CityOptions options_;
   IdCounters counters_;
@@ -171,6 +172,9 @@ using StyleOf = std::function<std::optional<Style>(const blocks::Block&)>;
 City make_city(const streets::StreetNetwork& network, const CityOptions& options,
                streets::BoundingClasses bounding = streets::BoundingClasses::kStreets,
                const StyleOf& style_of = {});
+
+/// The same city, divided and matched by other options from now on.
+City with_options(City city, const CityOptions& options);
 
 /// The streets as a network, in the order of their ids; `ids` gets the id of each where not null.
 streets::StreetNetwork network_of(const City& city, std::vector<StreetId>* ids = nullptr);

@@ -40,7 +40,7 @@ struct AddStreet {
   Point from;
   Point to;
   double width_m = 12.0;
-  std::string name;
+  std::string name{};
   std::string street_class = "residential";
   double snap_m = 1.0;
 };

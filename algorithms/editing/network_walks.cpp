@@ -116,9 +116,9 @@ void NetworkEdit::retrace() {
     const auto it = known.find(walk.half_edges);
     const WalkId id = it == known.end() ? change_.new_walk() : it->second;
     after.insert(id);
-    if (it != known.end()) continue;
     for (const HalfEdge h : walk.half_edges) {
       const StreetId street = street_of(h);
+      if (it != known.end() && !new_.contains(street)) continue;
       auto place = sides.find(street);
       if (place == sides.end()) {
         const bool is_new = new_.contains(street);
@@ -130,7 +130,7 @@ void NetworkEdit::retrace() {
       }
       ((h & 1U) == 0U ? place->second.left : place->second.right) = id;
     }
-    change_.set(id, std::move(walk));
+    if (it == known.end()) change_.set(id, std::move(walk));
   }
   for (const auto& [street, both] : sides) change_.set(street, both);
   for (const WalkId id : walks_) {
