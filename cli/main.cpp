@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   plat::cli::add_data_command(app, action);
   plat::cli::add_blocks_command(app, action);
   plat::cli::add_subdivide_command(app, action);
+  plat::cli::add_edit_command(app, action);
   plat::cli::add_compare_command(app, action);
   plat::cli::add_run_command(app, action);
   plat::cli::add_report_command(app, action);
