@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/planar_graph.h"
 #include "editing/block_update_internal.h"
 #include "editing/change.h"
 #include "editing/network_edit_internal.h"
@@ -68,6 +69,20 @@ class BlockRestorer {
   std::map<Point, std::vector<const CityBlock*>> known_;
 };
 
+/// Whether noding leaves the streets as they are: the first invariant of a city.
+bool is_noded(const City& city) {
+  std::vector<Segment> segments;
+  std::size_t places = city.nodes().size();
+  city.streets().for_each([&](StreetId, const CityStreet& street) {
+    for (std::size_t i = 1; i < street.line.size(); ++i)
+      segments.push_back({street.line[i - 1], street.line[i]});
+    places += street.line.size() - 2;
+  });
+  const PlanarGraph graph = node_segments(segments);
+  return graph.edges.size() == segments.size() && graph.overlaps.empty() &&
+         graph.nodes.size() == places;
+}
+
 }  // namespace
 
 CityParts parts_of(const City& city) {
@@ -89,7 +104,9 @@ Expected<City> restore_city(const CityParts& parts) {
   detail::NetworkEdit edit(change);
   for (const auto& [id, position] : parts.nodes) edit.insert(id, position);
   for (const auto& [id, street] : parts.streets) edit.insert(id, street);
-  const Expected<detail::NetworkOutcome> outcome = edit.settle();
+  if (!is_noded(city))
+    return fail(FailureCode::kStreetsCross, "streets cross or touch where they have no node");
+  const Expected<detail::NetworkOutcome> outcome = edit.settle(detail::NetworkEdit::Check::kNone);
   if (!outcome) return tl::unexpected<Failure>(outcome.error());
   if (auto failure = BlockRestorer(change, parts).restore(outcome->faces))
     return tl::unexpected<Failure>(*std::move(failure));

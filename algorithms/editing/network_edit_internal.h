@@ -91,8 +91,9 @@ bool is_clear(const CityStreet& street);
 
 /// Points nearer than this to a street are on it: a grid step, twice the reach of noding.
 inline constexpr double kClearance_m = 1.0 / 1024.0;
-/// A shorter street has collapsed, metres: a few grid steps, below any survey.
-inline constexpr double kMinStreet_m = 4.0 / 1024.0;
+/// A shorter street has collapsed, metres: its ends are one place. Real networks have streets of a
+/// few grid steps.
+inline constexpr double kMinStreet_m = 1.0 / 1024.0;
 
 /// The points of a walk, in order.
 Ring ring_of(const City& city, const Walk& walk);

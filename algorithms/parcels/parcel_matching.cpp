@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/failure.h"
@@ -141,13 +142,14 @@ std::vector<double> relative_distances(std::span<const Point> centres,
   return out;
 }
 
-/// The nearest parcel before, by `distance_of(after, before)`.
+/// The nearest parcel before, by `distance_of(after, before, bound)`, which may stop above `bound`.
 template <class DistanceOf>
 Matches nearest(std::size_t before_count, std::size_t after_count, DistanceOf distance_of) {
   Matches out(after_count);
   for (std::size_t i = 0; i < after_count; ++i) {
     for (std::uint32_t j = 0; j < before_count; ++j) {
-      const double d = distance_of(i, j);
+      constexpr double kNoBound = std::numeric_limits<double>::infinity();
+      const double d = distance_of(i, j, out[i] ? out[i]->distance : kNoBound);
       if (!out[i] || d < out[i]->distance) out[i] = ParcelMatch{j, d};
     }
   }
@@ -155,8 +157,9 @@ Matches nearest(std::size_t before_count, std::size_t after_count, DistanceOf di
 }
 
 Matches by_centroid(std::span<const Point> before, std::span<const Point> after) {
-  return nearest(before.size(), after.size(),
-                 [&](std::size_t i, std::size_t j) { return distance(after[i], before[j]); });
+  return nearest(before.size(), after.size(), [&](std::size_t i, std::size_t j, double) {
+    return distance(after[i], before[j]);
+  });
 }
 
 Matches by_relative_distances(const MatchedBlock& before, const MatchedBlock& after) {
@@ -173,12 +176,13 @@ Matches by_relative_distances(const MatchedBlock& before, const MatchedBlock& af
   const std::vector<double> old_places = relative_distances(old_centres, old_corners);
   const std::vector<double> new_places = relative_distances(new_centres, new_corners);
   const std::size_t k = pairs.size();
-  return nearest(old_centres.size(), new_centres.size(), [&](std::size_t i, std::size_t j) {
-    double sum = 0.0;
-    for (std::size_t c = 0; c < k; ++c)
-      sum += std::abs(new_places[i * k + c] - old_places[j * k + c]);
-    return sum;
-  });
+  return nearest(old_centres.size(), new_centres.size(),
+                 [&](std::size_t i, std::size_t j, double bound) {
+                   double sum = 0.0;
+                   for (std::size_t c = 0; c < k && sum <= bound; ++c)
+                     sum += std::abs(new_places[i * k + c] - old_places[j * k + c]);
+                   return sum;
+                 });
 }
 
 Matches by_overlap(const MatchedBlock& before, const MatchedBlock& after) {

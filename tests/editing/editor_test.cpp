@@ -191,6 +191,16 @@ TEST(Editor, MovingALooseEndOntoAStreetClosesABlock) {
   EXPECT_FALSE(editor.city().nodes().contains(end));
 }
 
+TEST(Editor, AJoinedNodeLeavesTheOtherSideOfItsStreetsKnown) {
+  Editor editor(testing::grid_city(2, 3));
+  applied(editor, AddStreet{{50, 80}, {50, 120}});
+  applied(editor, RemoveStreet{street_near(editor.city(), {50, 100})});
+  applied(editor, MoveNode{node_near(editor.city(), {50, 80}), {50, 159.8}, 1.0});
+  EXPECT_EQ(editor.city().blocks().size(), 3U);
+  for (const Point p : {Point{25, 120}, {75, 120}})
+    applied(editor, SetStreetWidth{street_near(editor.city(), p), 8.0});
+}
+
 TEST(Editor, AnIslandChangesTheBlockThatHoldsIt) {
   Editor editor(make_city(testing::town_network(), {}));
   const BlockId around = block_at(editor.city(), {110, 120});
@@ -303,6 +313,16 @@ TEST(CityParts, ARestoredCityIsTheSame) {
     EXPECT_EQ(a.blocks[i].parcels, b.blocks[i].parcels);
     EXPECT_EQ(a.blocks[i].records, b.blocks[i].records);
   }
+}
+
+TEST(CityParts, AStreetOfAFewGridStepsIsRestored) {
+  streets::StreetNetwork network = testing::grid_network(3, 3);
+  streets::Street stub = network.streets.front();
+  stub.id = StreetId{static_cast<std::uint32_t>(network.streets.size())};
+  stub.line = {{50, 0}, {50, 2.0 / 1024.0}};
+  network.streets.push_back(stub);
+  const auto restored = restore_city(parts_of(make_city(network, {})));
+  EXPECT_TRUE(restored) << restored.error().message;
 }
 
 TEST(CityParts, PartsThatDoNotFitAreRefused) {
