@@ -17,7 +17,7 @@ namespace plat::editing::detail {
 
 /// What a change of the network means for blocks.
 struct NetworkOutcome {
-  std::vector<WalkId> faces;     ///< that are there and may have other blocks now, sorted
+  std::vector<WalkId> faces;  ///< that are there and may have other blocks now, by lowest half-edge
   std::vector<BlockId> orphans;  ///< blocks of faces that are gone, sorted
   /// Streets that were split off others: new street to the one it was part of.
   std::map<StreetId, StreetId> split_from;

@@ -241,6 +241,10 @@ Expected<NetworkOutcome> NetworkEdit::settle(Check check) {
   for (const WalkId id : faces) {
     if (city().walks().at(id).is_face()) out.faces.push_back(id);
   }
+  // By their lowest half-edge: ids of walks are not kept in files, and must not show in new ids.
+  std::sort(out.faces.begin(), out.faces.end(), [&](WalkId a, WalkId b) {
+    return city().walks().at(a).half_edges.front() < city().walks().at(b).half_edges.front();
+  });
   out.orphans.assign(orphans_.begin(), orphans_.end());
   out.split_from = std::move(split_from_);
   return out;
