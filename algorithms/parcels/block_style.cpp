@@ -15,8 +15,8 @@ constexpr StyleFeature kAreaVariation{"area_variation", [](const ParcelStyle& s)
 constexpr StyleFeature kWidthVariation{"width_variation", [](const ParcelStyle& s) {
                                          return variation(s.width_deviation_m, s.width_mean_m);
                                        }};
-constexpr StyleFeature kAccessArea{"access_area_01",
-                                   [](const ParcelStyle& s) { return s.access_area_01; }};
+constexpr StyleFeature kAspectRatio{"aspect_ratio_mean",
+                                    [](const ParcelStyle& s) { return s.aspect_ratio_mean; }};
 
 constexpr StyleNode leaf(BlockStyle style, int blocks) {
   return {std::nullopt, 0.0, 0, 0, style, blocks};
@@ -31,17 +31,21 @@ using enum BlockStyle;
 /// experiments/block_style, seed 1, depth 3, at least 20 blocks a leaf. Splits carry the best
 /// single answer, too.
 constexpr std::array kTree{
-    split(kAreaVariation, 1.521, 1, 8, kMinBox, 917),      // 0
-    split(kWidthVariation, 0.2748, 2, 5, kMinBox, 827),    // 1
-    split(kCount, 6.5, 3, 4, kMinBox, 291),                // 2
-    leaf(kVoronoi, 147),                                   // 3
-    leaf(kMinBox, 144),                                    // 4
-    split(kWidthVariation, 0.733, 6, 7, kRecursive, 536),  // 5
-    leaf(kRecursive, 492),                                 // 6
-    leaf(kMinBox, 44),                                     // 7
-    split(kAccessArea, 0.9504, 9, 10, kSkeleton, 90),      // 8
-    leaf(kMinBox, 21),                                     // 9
-    leaf(kSkeleton, 69),                                   // 10
+    split(kCount, 3.5, 1, 8, kMinBox, 917),                   // 0
+    split(kAspectRatio, 1.647, 2, 5, kVoronoi, 152),          // 1
+    split(kWidthVariation, 0.02862, 3, 4, kMinBox, 79),       // 2
+    leaf(kVoronoi, 51),                                       // 3
+    leaf(kMinBox, 28),                                        // 4
+    split(kWidthVariation, 0.02237, 6, 7, kVoronoi, 73),      // 5
+    leaf(kRecursive, 39),                                     // 6
+    leaf(kVoronoi, 34),                                       // 7
+    split(kWidthVariation, 0.733, 9, 12, kMinBox, 765),       // 8
+    split(kWidthVariation, 0.2748, 10, 11, kRecursive, 655),  // 9
+    leaf(kMinBox, 176),                                       // 10
+    leaf(kRecursive, 479),                                    // 11
+    split(kAreaVariation, 1.854, 13, 14, kMinBox, 110),       // 12
+    leaf(kMinBox, 60),                                        // 13
+    leaf(kSkeleton, 50),                                      // 14
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ std::span<const StyleNode> block_style_tree();
 
 /// Which strategy reproduces a block best, going by what its observed parcels look like.
 /// Paper: left to the user, and named as future work [VKW12, Sec. 6 and 7].
-/// Deviation: right for one block in three (ADR 0015).
+/// Deviation: right for one block in three, in an unseen city one in four (ADR 0015).
 BlockStyle block_style_of(const ParcelStyle& style);
 
 }  // namespace plat::parcels

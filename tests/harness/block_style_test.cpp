@@ -45,9 +45,9 @@ TEST(BlockStyleTree, ReachesEveryLeafAndEndsThere) {
     if (!node.feature) leaves.insert(node.style);
   }
   for (int i = 0; i < 500; ++i) {
-    ParcelStyle style{rng.index(60) + 1, 500.0, rng.uniform(0.0, 1500.0), 15.0,
+    ParcelStyle style{rng.index(6) + 1, 500.0, rng.uniform(0.0, 1500.0), 15.0,
                       rng.uniform(0.0, 20.0)};
-    style.access_area_01 = rng.uniform_01();
+    style.aspect_ratio_mean = rng.uniform(1.0, 3.0);
     answers.insert(block_style_of(style));
   }
   EXPECT_EQ(answers, leaves);
@@ -55,15 +55,17 @@ TEST(BlockStyleTree, ReachesEveryLeafAndEndsThere) {
 }
 
 TEST(BlockStyleTree, SplitsAtItsThresholds) {
-  ParcelStyle style{6, 500.0, 0.0, 15.0, 0.0};
+  ParcelStyle style{3, 500.0, 0.0, 15.0, 0.0};
   EXPECT_EQ(block_style_of(style), BlockStyle::kVoronoi);
-  style.count = 7;
+  style.aspect_ratio_mean = 2.0;
+  EXPECT_EQ(block_style_of(style), BlockStyle::kRecursive);
+  style.count = 4;
   EXPECT_EQ(block_style_of(style), BlockStyle::kMinBox);
   style.width_deviation_m = 0.5 * style.width_mean_m;
   EXPECT_EQ(block_style_of(style), BlockStyle::kRecursive);
-  style.area_deviation_m2 = 2.0 * style.area_mean_m2;
+  style.width_deviation_m = style.width_mean_m;
   EXPECT_EQ(block_style_of(style), BlockStyle::kMinBox);
-  style.access_area_01 = 1.0;
+  style.area_deviation_m2 = 2.0 * style.area_mean_m2;
   EXPECT_EQ(block_style_of(style), BlockStyle::kSkeleton);
 }
 
