@@ -61,6 +61,11 @@ TEST(SubdivisionTrace, SkeletonShowsAFaceForEachEdgeAndTheArcsBetweenThem) {
   const SubdivisionTrace trace = skeleton_trace(testing::rectangle_block(120.0, 70.0), {});
   EXPECT_EQ(count(trace, TraceStep::kSkeletonFace), 4U);
   EXPECT_EQ(count(trace, TraceStep::kSkeletonArc), 5U);
+  for (const SubdivisionTrace::Line& shown : trace.lines()) {
+    if (shown.step == TraceStep::kSkeletonArc) {
+      EXPECT_EQ(shown.number, 1U);  // four streets, four strips
+    }
+  }
   EXPECT_GT(count(trace, TraceStep::kSlice), 4U);
   EXPECT_EQ(count(trace, TraceStep::kOffset), 0U);
 }
