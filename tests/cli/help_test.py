@@ -67,6 +67,9 @@ class Lists(CliTest):
                 self.assertTrue(option["description"])
                 if option["type"] == "choice":
                     self.assertIn(option["default"], option["choices"])
+                elif option["default"] == "none":
+                    self.assertEqual(option["type"], "number or none")
+                    self.assertLess(option["min"], option["max"])
                 else:
                     self.assertLessEqual(option["min"], option["default"])
                     self.assertLessEqual(option["default"], option["max"])
