@@ -80,12 +80,20 @@ void list_experiments(bool as_json) {
   if (as_json) {
     json out = json::array();
     for (const auto& e : harness::list_experiments())
-      out.push_back({{"name", e.name}, {"question", e.question}});
+      out.push_back({{"name", e.name}, {"question", e.question}, {"is_program", e.is_program}});
     fmt::print("{}\n", out.dump(1));
     return;
   }
+  const auto print_those = [](bool are_programs) {
+    for (const auto& e : harness::list_experiments()) {
+      if (e.is_program == are_programs)
+        fmt::print("  {:<24} {}\n", e.name, e.question.empty() ? "its README tells" : e.question);
+    }
+  };
   fmt::print("Experiments (plat run NAME --out DIR):\n");
-  for (const auto& e : harness::list_experiments()) fmt::print("  {:<24} {}\n", e.name, e.question);
+  print_those(false);
+  fmt::print("Programs of their own, beside plat (NAME --help):\n");
+  print_those(true);
 }
 
 }  // namespace

@@ -93,9 +93,21 @@ ExperimentConfig parse_config(const json& object, const std::string& source) {
   return out;
 }
 
+namespace {
+
+/// Such an experiment is no grid of strategies: it is built as a program of its name.
+bool has_program(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "main.cpp");
+}
+
+}  // namespace
+
 ExperimentConfig read_config(const std::string& file_or_name) {
   std::filesystem::path path = file_or_name;
   if (!std::filesystem::exists(path)) {
+    if (has_program(experiments_folder() / file_or_name)) {
+      throw InputError(fmt::format("{0} is a program of its own: {0} --help", file_or_name));
+    }
     path = experiments_folder() / file_or_name / "config.json";
     if (!std::filesystem::exists(path)) {
       std::vector<std::string> names;
@@ -138,14 +150,15 @@ std::vector<ExperimentSummary> list_experiments() {
   std::vector<ExperimentSummary> out;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(experiments_folder(), ignored)) {
+    const bool is_program = has_program(entry.path());
     std::ifstream in(entry.path() / "config.json");
-    if (!in) continue;
-    const json object = json::parse(in, nullptr, false);
+    if (!in && !is_program) continue;
+    const json object = in ? json::parse(in, nullptr, false) : json::object();
     if (!object.is_object()) continue;
     const auto question = object.find("question");
     const bool has_question = question != object.end() && question->is_string();
     out.push_back({entry.path().filename().string(),
-                   has_question ? question->get<std::string>() : std::string()});
+                   has_question ? question->get<std::string>() : std::string(), is_program});
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return out;

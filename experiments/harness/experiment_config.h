@@ -52,7 +52,8 @@ nlohmann::json to_json(const ExperimentConfig& config);
 /// Experiments that come with Plat: name and what it asks, by name.
 struct ExperimentSummary {
   std::string name;
-  std::string question;
+  std::string question;     ///< empty where only the README tells
+  bool is_program = false;  ///< an executable of that name, not a config of this grid
 };
 std::vector<ExperimentSummary> list_experiments();
 

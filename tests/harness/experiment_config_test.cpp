@@ -142,9 +142,25 @@ TEST(ExperimentConfig, ThoseThatComeWithPlatAreValid) {
   const auto experiments = list_experiments();
   ASSERT_FALSE(experiments.empty());
   for (const ExperimentSummary& e : experiments) {
+    if (e.is_program) continue;
     EXPECT_NO_THROW(static_cast<void>(read_config(e.name))) << e.name;
     EXPECT_FALSE(e.question.empty()) << e.name;
   }
+}
+
+TEST(ExperimentConfig, AProgramOfItsOwnIsNotRunAsAGrid) {
+  int programs = 0;
+  for (const ExperimentSummary& e : list_experiments()) {
+    if (!e.is_program) continue;
+    ++programs;
+    try {
+      static_cast<void>(read_config(e.name));
+      ADD_FAILURE() << e.name;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(e.name + " --help"), std::string::npos);
+    }
+  }
+  EXPECT_GT(programs, 0);
 }
 
 }  // namespace
