@@ -155,7 +155,7 @@ class BadOptions(CliTest):
         self.assert_only("blocks.gpkg")
 
     def test_unknown_strategy_is_suggested(self):
-        self.refused(strategy="skeletn", words=('"skeletn"', 'did you mean "skeleton"', "known: obb, skeleton"))
+        self.refused(strategy="skeletn", words=('"skeletn"', 'did you mean "skeleton"', "known: border_voronoi, cube_packing"))
 
     def test_misspelt_option_is_suggested(self):
         self.refused("--set", "area_maxm2=3", words=("obb", '"area_maxm2"', 'did you mean "area_max_m2"'))
