@@ -30,7 +30,8 @@ enum class InnerDivision {
 /// a row counts as shallow by `shallow_share`; a large lot is halved only while its front keeps
 /// half the mean width; without street labels every outer edge counts as a street; the skeleton is
 /// that of a simplified contour, the parcels those of the full one; a patio that its inner division
-/// cannot divide stays whole (ADR 0006).
+/// cannot divide stays whole; fitted bounds of area are at most half and at least four thirds of
+/// the mean (ADR 0006).
 class SkeletonSubdivider {
  public:
   static constexpr std::string_view kName = "skeleton";
