@@ -38,6 +38,8 @@ std::string_view failure_name(FailureCode code) {
       return "streets_cross";
     case FailureCode::kFaceInverted:
       return "face_inverted";
+    case FailureCode::kTooManyStates:
+      return "too_many_states";
   }
   return "unknown";
 }

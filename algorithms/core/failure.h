@@ -28,6 +28,8 @@ enum class FailureCode : int {
   kStreetCollapsed = 22,  ///< a street would have no length left
   kStreetsCross = 23,     ///< streets would cross or touch where they have no node
   kFaceInverted = 24,     ///< a face would be turned inside out, or a street jump over another
+  // Of sequences (sequences/sequence_search.h):
+  kTooManyStates = 30,  ///< the search would hold or expand more states than its limit
 };
 
 /// The code's name in tables and layers, e.g. "not_simple".
