@@ -12,6 +12,8 @@ find_package(CLI11 REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(GDAL 3.6 REQUIRED)
 find_package(GEOS 3.11 REQUIRED)
+# CONFIG: CGAL brings a module of the same name that looks elsewhere.
+find_package(OpenMesh CONFIG REQUIRED)
 if(PLAT_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)
