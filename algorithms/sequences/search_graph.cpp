@@ -82,6 +82,17 @@ void expect_no_free_cycle(const SearchGraph& graph, const Zone& zone) {
       names);
 }
 
+/// What the zone behind the link asks for has been counted in the zone before it.
+bool is_counted(const SearchGraph& graph, const Link& link) {
+  const Zone& from = graph.zones[graph.zone_of(link.from)];
+  const Zone& to = graph.zones[graph.zone_of(link.to)];
+  for (std::uint32_t d = 0; d < graph.dimension_count; ++d) {
+    if (to.resets[d] || from.bounds[d].max != kUnbounded) continue;
+    if (to.bounds[d].max != kUnbounded || to.bounds[d].min > from.bounds[d].min) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::uint32_t SearchGraph::zone_of(std::uint32_t node) const {
@@ -113,6 +124,7 @@ void validate(const SearchGraph& graph) {
     expects(link.from < graph.node_count() && link.to < graph.node_count(), "links join nodes");
     expects(link.cost >= 0, "a link's cost is not negative");
     expects(graph.zone_of(link.from) < graph.zone_of(link.to), "links lead to later zones");
+    expects(is_counted(graph, link), "a dimension that goes on has been counted");
   }
   expects(std::ranges::is_sorted(graph.links, {}, &Link::from), "links are sorted");
   for (const Zone& zone : graph.zones)

@@ -73,7 +73,9 @@ struct Link {
 ///
 /// Guarantees, checked by `validate`: 1. costs and uses are not negative;  2. links lead to later
 /// zones;  3. offsets, sizes and indices agree;  4. no cycle of arcs without a cost consumes
-/// nothing bounded: else there would be infinitely many paths of one cost.
+/// nothing bounded: else there would be infinitely many paths of one cost;  5. a link that does not
+/// reset a dimension never leads from a zone without its maximum to one with a maximum or a larger
+/// minimum, which would ask for what the first zone did not count (`largest_amount`).
 struct SearchGraph {
   std::uint32_t dimension_count = 0;
   std::vector<Zone> zones;  ///< in the order in which a path meets them; at least one
@@ -95,7 +97,7 @@ struct SearchGraph {
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> links_from(std::uint32_t node) const;
 };
 
-/// @throws LogicError for a graph whose numbers do not fit together (guarantees 1-3)
+/// @throws LogicError for a graph whose numbers do not fit together (guarantees 1-3 and 5)
 /// @throws InputError naming the nodes of a cycle that costs and consumes nothing (guarantee 4)
 void validate(const SearchGraph& graph);
 
