@@ -12,7 +12,7 @@ run_packages=(
   gdal-bin python3 python3-matplotlib python3-pandas python3-geopandas)
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev clang-format-19
-  jupyter-nbconvert python3-ipykernel python3-nbformat)
+  jupyter-nbconvert python3-ipykernel python3-nbformat python3-jsonschema)
 dev_packages=(clang-19 clang-tidy-19 libclang-rt-19-dev)
 
 level="${1:-run}"
