@@ -1,10 +1,13 @@
 #include "sequences/sequence_search.h"
 
+#include "sequences/layered_search.h"
+
 namespace plat::sequences {
 
 const Registry<AnySequenceSearch>& sequence_searches() {
   static const Registry<AnySequenceSearch> kMenu = [] {
     Registry<AnySequenceSearch> all;
+    all.add<LayeredSearch>();
     return all;
   }();
   return kMenu;

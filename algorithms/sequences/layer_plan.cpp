@@ -1,0 +1,280 @@
+#include "sequences/layer_plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace plat::sequences {
+namespace {
+
+/// Builds the plan, zone by zone: backwards what must be remembered, forwards what is reached.
+class Planner {
+ public:
+  Planner(const SearchGraph& graph, std::uint64_t max_cells)
+      : graph_(graph), max_cells_(max_cells) {
+    plan_.zones.resize(graph.zones.size());
+  }
+
+  std::optional<LayerPlan> plan() {
+    collect_links();
+    for (std::size_t z = graph_.zones.size(); z-- > 0;) bound_above(z);
+    std::vector<bool> is_entered(graph_.zones.size(), false);
+    bound_below(is_entered);
+    for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
+      collect_classes(z);
+      if (!make_box(z, is_entered[z])) return std::nullopt;
+    }
+    for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
+      number_rows(z);
+      plan_.state_count += std::uint64_t{plan_.zones[z].row_count} * graph_.zones[z].size;
+      if (plan_.state_count > max_cells_) return std::nullopt;
+      enter_next_zones(z);
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  void collect_links() {
+    std::uint32_t link = 0;
+    for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
+      const Zone& zone = graph_.zones[z];
+      ZoneLayers& layers = plan_.zones[z];
+      layers.first_link = link;
+      while (link < graph_.links.size() && graph_.links[link].from < zone.first_node + zone.size)
+        layers.targets.push_back(graph_.links[link++].to);
+      layers.last_link = link;
+      const std::vector<std::uint32_t> ends = layers.targets;
+      std::ranges::sort(layers.targets);
+      layers.targets.erase(std::unique(layers.targets.begin(), layers.targets.end()),
+                           layers.targets.end());
+      for (const std::uint32_t end : ends)
+        layers.target_of.push_back(static_cast<std::uint32_t>(
+            std::ranges::lower_bound(layers.targets, end) - layers.targets.begin()));
+      for (const std::uint32_t target : layers.targets)
+        layers.target_zones.push_back(graph_.zone_of(target));
+    }
+  }
+
+  /// What the zone must tell apart in one dimension: everything up to a maximum here, or as far as
+  /// this and the later zones ask.
+  void bound_above(std::size_t z) {
+    const Zone& zone = graph_.zones[z];
+    ZoneLayers& layers = plan_.zones[z];
+    const bool has_exit = std::ranges::any_of(graph_.exits, [&](const Terminal& exit) {
+      return exit.node >= zone.first_node && exit.node < zone.first_node + zone.size;
+    });
+    for (std::uint32_t d = 0; d < graph_.dimension_count; ++d) {
+      const bool saturates = zone.bounds[d].max == kUnbounded;
+      std::int64_t highest = saturates ? zone.bounds[d].min : has_exit ? zone.bounds[d].max : -1;
+      for (std::size_t t = 0; t < layers.targets.size(); ++t) {
+        const Zone& next = graph_.zones[layers.target_zones[t]];
+        const ZoneLayers& after = plan_.zones[layers.target_zones[t]];
+        if (saturates && !next.resets[d])
+          highest =
+              std::max<std::int64_t>(highest, after.highest[d] + (after.saturates[d] ? 0 : 1));
+        if (!saturates && (next.resets[d] || after.saturates[d])) highest = zone.bounds[d].max;
+        if (!saturates && !next.resets[d] && !after.saturates[d])
+          highest = std::max<std::int64_t>(
+              highest, std::int64_t{after.highest[d]} - graph_.uses(layers.targets[t])[d]);
+      }
+      layers.saturates.push_back(saturates);
+      layers.highest.push_back(static_cast<Amount>(
+          std::min<std::int64_t>(highest, saturates ? kUnbounded - 1 : zone.bounds[d].max)));
+    }
+  }
+
+  void lower(std::size_t z, std::vector<bool>& is_entered, std::uint32_t node,
+             const std::vector<Amount>& before) {
+    ZoneLayers& layers = plan_.zones[z];
+    const auto uses = graph_.uses(node);
+    for (std::uint32_t d = 0; d < graph_.dimension_count; ++d) {
+      const auto amount = static_cast<Amount>(std::min<std::int64_t>(
+          std::int64_t{before[d]} + uses[d], layers.saturates[d] ? layers.highest[d] : kUnbounded));
+      layers.lowest[d] = is_entered[z] ? std::min(layers.lowest[d], amount) : amount;
+    }
+    is_entered[z] = true;
+  }
+
+  void bound_below(std::vector<bool>& is_entered) {
+    const std::vector<Amount> none(graph_.dimension_count, 0);
+    for (ZoneLayers& layers : plan_.zones) layers.lowest = none;
+    for (const Terminal& entry : graph_.entries)
+      lower(graph_.zone_of(entry.node), is_entered, entry.node, none);
+    for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
+      if (!is_entered[z]) continue;
+      const ZoneLayers& layers = plan_.zones[z];
+      for (std::size_t t = 0; t < layers.targets.size(); ++t) {
+        const std::size_t next = layers.target_zones[t];
+        std::vector<Amount> before = layers.lowest;
+        for (std::uint32_t d = 0; d < graph_.dimension_count; ++d)
+          if (graph_.zones[next].resets[d]) before[d] = 0;
+        lower(next, is_entered, layers.targets[t], before);
+      }
+    }
+  }
+
+  /// Numbers the distinct uses of a zone's arcs.
+  void collect_classes(std::size_t z) {
+    const Zone& zone = graph_.zones[z];
+    if (!zone.table) return;
+    ZoneLayers& layers = plan_.zones[z];
+    const TransitionTable& table = graph_.tables[*zone.table];
+    const std::size_t width = graph_.dimension_count;
+    const bool is_by_arc = !table.arc_uses.empty();
+    const std::size_t count = is_by_arc ? table.arcs.size() : zone.size;
+    std::vector<Amount> all(count * width);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t head = is_by_arc ? table.arcs[i].head : i;
+      const auto uses = graph_.uses(zone.first_node + static_cast<std::uint32_t>(head));
+      for (std::size_t d = 0; d < width; ++d) {
+        const std::int64_t sum =
+            std::int64_t{uses[d]} + (is_by_arc ? table.arc_uses[i * width + d] : 0);
+        all[i * width + d] = static_cast<Amount>(std::min<std::int64_t>(sum, kUnbounded));
+      }
+    }
+    const auto row = [&](std::size_t i) { return std::span(all).subspan(i * width, width); };
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      return std::ranges::lexicographical_compare(row(a), row(b));
+    });
+    layers.class_of.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k == 0 || !std::ranges::equal(row(order[k]), row(order[k - 1]))) {
+        const auto uses = row(order[k]);
+        layers.class_uses.insert(layers.class_uses.end(), uses.begin(), uses.end());
+        ++layers.class_count;
+      }
+      layers.class_of[order[k]] = layers.class_count - 1;
+    }
+  }
+
+  /// False where the boxes become too large.
+  bool make_box(std::size_t z, bool is_entered) {
+    ZoneLayers& layers = plan_.zones[z];
+    const std::uint32_t width = graph_.dimension_count;
+    layers.step.assign(width, 0);
+    bool is_dead = !is_entered;
+    for (std::uint32_t d = 0; d < width; ++d)
+      is_dead = is_dead || layers.lowest[d] > layers.highest[d];
+    if (is_dead) return true;
+    std::uint64_t cells = 1;
+    std::uint32_t counting = 0;
+    for (std::uint32_t d = width; d-- > 0;) {
+      layers.step[d] = cells;
+      const auto extent =
+          static_cast<std::uint64_t>(std::int64_t{layers.highest[d]} - layers.lowest[d] + 1);
+      counting += extent > 1 ? 1 : 0;
+      if (extent > max_cells_ / cells) return false;
+      cells *= extent;
+    }
+    cells_ += cells;
+    if (cells_ > max_cells_ || cells >= kNoRow) return false;
+    layers.row_count = static_cast<Row>(cells);
+    if (counting <= 1 && graph_.zones[z].table) return true;
+    layers.row_of_cell.assign(cells, kNoRow);
+    std::vector<Amount> none(width, 0);
+    for (const Terminal& entry : graph_.entries)
+      if (graph_.zone_of(entry.node) == z) mark(layers, none, graph_.uses(entry.node));
+    return true;
+  }
+
+  static void mark(ZoneLayers& layers, std::span<const Amount> consumed,
+                   std::span<const Amount> used) {
+    if (layers.row_count == 0 || layers.row_of_cell.empty()) return;
+    const auto cell = layers.cell_after(consumed, used);
+    if (cell) layers.row_of_cell[*cell] = 0;
+  }
+
+  /// Follows the zone's uses from marked cell to marked cell, then numbers the cells.
+  void number_rows(std::size_t z) {
+    ZoneLayers& layers = plan_.zones[z];
+    if (layers.row_count == 0 || layers.row_of_cell.empty()) return;
+    const std::size_t width = graph_.dimension_count;
+    std::vector<Amount> amounts(width);
+    Row rows = 0;
+    for (std::size_t cell = 0; cell < layers.row_of_cell.size(); ++cell) {
+      if (layers.row_of_cell[cell] == kNoRow) continue;
+      layers.cell_of_row.push_back(static_cast<std::uint32_t>(cell));
+      layers.row_of_cell[cell] = rows;
+      layers.consumed(rows++, amounts);
+      for (std::uint32_t c = 0; c < layers.class_count; ++c) {
+        const auto next =
+            layers.cell_after(amounts, std::span(layers.class_uses).subspan(c * width, width));
+        if (next && *next > cell) layers.row_of_cell[*next] = 0;
+      }
+    }
+    layers.row_count = rows;
+  }
+
+  void enter_next_zones(std::size_t z) {
+    const ZoneLayers& layers = plan_.zones[z];
+    std::vector<Amount> amounts(graph_.dimension_count);
+    for (std::size_t t = 0; t < layers.targets.size(); ++t) {
+      ZoneLayers& next = plan_.zones[layers.target_zones[t]];
+      if (next.row_count == 0 || next.row_of_cell.empty()) continue;
+      for (Row row = 0; row < layers.row_count; ++row) {
+        layers.consumed(row, amounts);
+        if (carry_over(graph_.zones[z], graph_.zones[layers.target_zones[t]], amounts))
+          mark(next, amounts, graph_.uses(layers.targets[t]));
+      }
+    }
+  }
+
+  const SearchGraph& graph_;
+  std::uint64_t max_cells_;
+  std::uint64_t cells_ = 0;
+  LayerPlan plan_;
+};
+
+}  // namespace
+
+std::optional<std::size_t> ZoneLayers::cell_after(std::span<const Amount> consumed,
+                                                  std::span<const Amount> used) const {
+  std::size_t cell = 0;
+  for (std::size_t d = 0; d < consumed.size(); ++d) {
+    std::int64_t sum = std::int64_t{consumed[d]} + used[d];
+    if (sum > highest[d]) {
+      if (!saturates[d]) return std::nullopt;
+      sum = highest[d];
+    }
+    if (sum < lowest[d]) return std::nullopt;
+    cell += static_cast<std::size_t>(sum - lowest[d]) * step[d];
+  }
+  return cell;
+}
+
+Row ZoneLayers::row_after(std::span<const Amount> consumed, std::span<const Amount> used) const {
+  if (row_count == 0) return kNoRow;
+  const auto cell = cell_after(consumed, used);
+  if (!cell) return kNoRow;
+  return row_of_cell.empty() ? static_cast<Row>(*cell) : row_of_cell[*cell];
+}
+
+void ZoneLayers::consumed(Row row, std::span<Amount> amounts) const {
+  std::size_t cell = cell_of_row.empty() ? row : cell_of_row[row];
+  for (std::size_t d = 0; d < amounts.size(); ++d) {
+    amounts[d] = lowest[d] + static_cast<Amount>(cell / step[d]);
+    cell %= step[d];
+  }
+}
+
+bool carry_over(const Zone& from, const Zone& to, std::span<Amount> consumed) {
+  for (std::size_t d = 0; d < consumed.size(); ++d) {
+    if (!to.resets[d]) continue;
+    if (consumed[d] < from.bounds[d].min) return false;
+    consumed[d] = 0;
+  }
+  return true;
+}
+
+bool may_end(const Zone& zone, std::span<const Amount> consumed) {
+  for (std::size_t d = 0; d < consumed.size(); ++d)
+    if (consumed[d] < zone.bounds[d].min) return false;
+  return true;
+}
+
+std::optional<LayerPlan> plan_layers(const SearchGraph& graph, std::uint64_t max_cells) {
+  return Planner(graph, max_cells).plan();
+}
+
+}  // namespace plat::sequences

@@ -1,0 +1,106 @@
+#include "sequences/layered_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "sequences/compiled_problem.h"
+#include "sequences/support/brute_force.h"
+#include "sequences/support/random_problems.h"
+#include "support/property.h"
+
+namespace plat::sequences {
+namespace {
+
+using plat::testing::enumerate_paths;
+using plat::testing::iterations;
+using plat::testing::property_rng;
+using plat::testing::random_plain_problem;
+using plat::testing::random_search_graph;
+
+std::vector<SequencePath> first_paths(const SearchGraph& graph, std::size_t k,
+                                      const LayeredSearch::Options& options = {}) {
+  const auto stream = LayeredSearch(options).search(graph);
+  if (!stream) throw LogicError(stream.error().message);
+  auto paths = find_paths(**stream, k);
+  if (!paths) throw LogicError(paths.error().message);
+  return *paths;
+}
+
+/// Elements of one quantum each that all follow each other at cost `cost`.
+SearchGraph uniform_graph(std::uint32_t elements, Amount length, Cost cost) {
+  SequenceDatabase database;
+  database.resources = {{"length", 1.0}};
+  for (std::uint32_t e = 0; e < elements; ++e)
+    database.elements.push_back({.name = std::to_string(e), .uses = {1}});
+  for (std::uint32_t from = 0; from < elements; ++from)
+    for (std::uint32_t to = 0; to < elements; ++to)
+      database.transitions.push_back({.from = from, .to = to, .cost = cost});
+  return compile(plain_sequence(std::move(database), {{length, length}})).graph;
+}
+
+TEST(LayeredSearch, GivesPathsByCostThenStepsWhateverTheBatch) {
+  constexpr std::array<int, 5> kBatches{1, 2, 7, 40, 262144};
+  int compared = 0;
+  for (const bool is_plain : {true, false}) {
+    Rng rng = property_rng(is_plain ? "layered.order.plain" : "layered.order.zones");
+    for (int i = 0; i < iterations(400); ++i) {
+      const SearchGraph graph =
+          is_plain ? compile(random_plain_problem(rng)).graph : random_search_graph(rng);
+      const auto all = enumerate_paths(graph, 200);
+      if (!all) continue;
+      const auto paths =
+          first_paths(graph, 200, {.batch_paths = kBatches[static_cast<std::size_t>(i) % 5]});
+      ASSERT_EQ(paths.size(), all->paths.size()) << i;
+      for (std::size_t p = 0; p < paths.size(); ++p) {
+        ASSERT_EQ(paths[p].cost, all->paths[p].cost) << i << ", path " << p;
+        ASSERT_EQ(paths[p].steps, all->paths[p].steps) << i << ", path " << p;
+      }
+      compared += paths.size() > 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(compared, iterations(200));
+}
+
+TEST(LayeredSearch, StreamsAClassOfEqualCostsThatIsLargerThanABatch) {
+  const SearchGraph graph = uniform_graph(3, 9, 2);  // 3^9 paths of the same cost
+  const auto paths = first_paths(graph, 100000, {.batch_paths = 10});
+  ASSERT_EQ(paths.size(), 19683U);
+  EXPECT_TRUE(std::ranges::all_of(paths, [](const auto& path) { return path.cost == 16; }));
+  EXPECT_TRUE(std::ranges::is_sorted(paths, std::ranges::less{}, &SequencePath::steps));
+}
+
+TEST(LayeredSearch, FindsCostsThatNeed64Bits) {
+  constexpr Cost kHuge = Cost{1} << 50;
+  SearchGraph graph = uniform_graph(3, 6, kHuge);
+  graph.tables[0].arcs[1].cost = 1;  // from 0 to 1
+  const auto paths = first_paths(graph, 4000);
+  ASSERT_EQ(paths.size(), 729U);
+  EXPECT_EQ(paths.front().cost, 3 + 2 * kHuge);
+  EXPECT_EQ(paths.back().cost, 5 * kHuge);
+}
+
+TEST(LayeredSearch, TurnsPositiveCirclesThatConsumeNothing) {
+  SequenceDatabase database;
+  database.resources = {{"length", 1.0}};
+  database.elements = {{.name = "a", .uses = {1}}, {.name = "b", .uses = {0}}};
+  database.transitions = {{.from = 0, .to = 1, .cost = 3}, {.from = 1, .to = 1, .cost = 2}};
+  const auto graph = compile(plain_sequence(std::move(database), {{1, 1}})).graph;
+  const auto paths = first_paths(graph, 5);  // a, ab, abb, ...
+  ASSERT_EQ(paths.size(), 5U);
+  EXPECT_EQ(paths[0].cost, 0);
+  EXPECT_EQ(paths[1].cost, 3);
+  EXPECT_EQ(paths[4].cost, 9);
+  EXPECT_EQ(paths[4].steps.size(), 5U);
+}
+
+TEST(LayeredSearch, FailsWhereTheTableExceedsItsMemory) {
+  const SearchGraph graph = uniform_graph(10, 1000, 1);
+  const auto stream = LayeredSearch({.max_memory_mb = 0.01}).search(graph);
+  ASSERT_FALSE(stream.has_value());
+  EXPECT_EQ(stream.error().code, FailureCode::kTooManyStates);
+}
+
+}  // namespace
+}  // namespace plat::sequences
