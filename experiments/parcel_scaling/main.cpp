@@ -14,13 +14,18 @@
 #include "harness/build_info.h"
 #include "harness/city_layers.h"
 #include "harness/csv.h"
-#include "parcel_scaling/resources.h"
+#include "harness/resource_use.h"
 #include "parcel_scaling/tiled_city.h"
 #include "parcels/block_subdivider.h"
 #include "parcels/coverage.h"
 
 namespace plat::scaling {
 namespace {
+
+using harness::Duration;
+using harness::peak_memory_mb;
+using harness::reset_peak_memory;
+using harness::Stopwatch;
 
 struct Arguments {
   std::string dataset = "cambridge_ma";

@@ -1,21 +1,19 @@
-#include "parcel_scaling/resources.h"
+#include "harness/resource_use.h"
 
 #include <malloc.h>
-#include <sys/resource.h>
 
+#include <ctime>
 #include <fstream>
 #include <sstream>
+#include <string>
 
-namespace plat::scaling {
+namespace plat::harness {
 namespace {
 
 double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  timespec used{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 }  // namespace
@@ -44,4 +42,4 @@ std::optional<double> peak_memory_mb() {
   return std::nullopt;
 }
 
-}  // namespace plat::scaling
+}  // namespace plat::harness

@@ -2,9 +2,8 @@
 
 #include <chrono>
 #include <optional>
-#include <string>
 
-namespace plat::scaling {
+namespace plat::harness {
 
 /// Time that passed and that the processors spent, seconds.
 struct Duration {
@@ -12,6 +11,7 @@ struct Duration {
   double cpu_s = 0.0;  ///< of all threads
 };
 
+/// Runs from its construction on.
 class Stopwatch {
  public:
   Stopwatch();
@@ -28,4 +28,4 @@ void reset_peak_memory();
 /// Most memory in use since the last reset, MB (1e6 bytes); nothing where the system does not say.
 std::optional<double> peak_memory_mb();
 
-}  // namespace plat::scaling
+}  // namespace plat::harness
