@@ -23,7 +23,8 @@ TEST(PowerLaw, HasAnIntervalThatGrowsWithTheScatter) {
   const std::vector<GrowthPoint> points{{1.0, 1.1}, {2.0, 1.8}, {4.0, 4.4}, {8.0, 7.2}};
   const auto law = fit_power_law(points);
   ASSERT_TRUE(law && law->interval);
-  // Reckoned apart from this code: Student's t with 2 degrees of freedom, 4.3027 standard errors of the slope.
+  // Reckoned apart from this code: Student's t with 2 degrees of freedom, 4.3027 standard errors of
+  // the slope.
   EXPECT_NEAR(law->exponent, 0.942099, 1e-6);
   EXPECT_NEAR(law->interval->high - law->exponent, 0.352322, 1e-6);
 }
