@@ -1,38 +1,38 @@
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "core/failure.h"
+#include "sequences/adjacency.h"
 #include "sequences/compiled_problem.h"
+#include "sequences/structure_check.h"
+#include "sequences/unrolling.h"
 
 namespace plat::sequences {
 namespace {
 
-/// The transitions from right to left sides, sorted into a table over all elements.
+/// The transitions from right to left sides as a table over all elements.
 TransitionTable right_to_left_table(const SequenceDatabase& database,
-                                    const std::vector<DimensionMeaning>& dimensions) {
-  std::vector<const Transition*> sorted;
-  bool has_uses = false;
-  for (const Transition& transition : database.transitions) {
-    if (transition.from_port != Port::kRight || transition.to_port != Port::kLeft) continue;
-    if (!database.elements[transition.from].is_filling) continue;
-    if (!database.elements[transition.to].is_filling) continue;
-    sorted.push_back(&transition);
-    has_uses = has_uses || std::ranges::any_of(transition.uses, [](Amount a) { return a > 0; });
-  }
-  std::ranges::stable_sort(sorted, {}, [](const Transition* transition) {
-    return std::pair(transition->from, transition->to);
-  });
+                                    const std::vector<DimensionMeaning>& dimensions,
+                                    std::vector<std::uint32_t>& transitions) {
+  const Adjacency adjacency(database);
   TransitionTable table;
-  table.first.assign(database.elements.size() + 1, 0);
-  for (const Transition* transition : sorted) {
-    ++table.first[transition->from + 1];
-    table.arcs.push_back({transition->to, transition->cost});
-    if (!has_uses) continue;
-    for (const auto& meaning : dimensions)
-      table.arc_uses.push_back(transition->uses.empty() ? 0 : transition->uses[meaning.resource]);
+  table.first.push_back(0);
+  bool has_uses = false;
+  for (ElementIndex tail = 0; tail < database.elements.size(); ++tail) {
+    for (const Neighbour& neighbour : adjacency.of(tail, Port::kRight, Port::kLeft)) {
+      if (!database.elements[tail].is_filling || !database.elements[neighbour.head].is_filling)
+        continue;
+      const Transition& transition = database.transitions[neighbour.transition];
+      table.arcs.push_back({neighbour.head, transition.cost});
+      transitions.push_back(neighbour.transition);
+      for (const auto& meaning : dimensions) {
+        table.arc_uses.push_back(transition.uses.empty() ? 0 : transition.uses[meaning.resource]);
+        has_uses = has_uses || table.arc_uses.back() > 0;
+      }
+    }
+    table.first.push_back(static_cast<std::uint32_t>(table.arcs.size()));
   }
-  std::partial_sum(table.first.begin(), table.first.end(), table.first.begin());
+  if (!has_uses) table.arc_uses.clear();
   return table;
 }
 
@@ -59,8 +59,7 @@ SequenceProblem plain_sequence(SequenceDatabase database, std::vector<Bounds> bo
 }
 
 CompiledProblem compile(const SequenceProblem& problem) {
-  expects(problem.structure.key_points.empty() && problem.structure.segments.size() == 1,
-          "a plain sequence");
+  if (!is_plain(problem.structure)) return unroll(problem);
   const SequenceDatabase& database = problem.database;
   CompiledProblem compiled;
   SearchGraph& graph = compiled.graph;
@@ -81,24 +80,13 @@ CompiledProblem compile(const SequenceProblem& problem) {
     if (element.is_filling && element.is_back) graph.exits.push_back({e, 0});
     compiled.placements.push_back(Placement{e, Placement::Place::kSegment, 0});
   }
-  graph.tables.push_back(right_to_left_table(database, compiled.dimensions));
+  compiled.arc_transitions.emplace_back();
+  graph.tables.push_back(
+      right_to_left_table(database, compiled.dimensions, compiled.arc_transitions.back()));
+  compiled.is_walked_backwards.assign(1, problem.structure.segments.front().is_reversed);
   graph.zones.push_back(std::move(zone));
   validate(graph);
   return compiled;
-}
-
-Arrangement arrangement(const CompiledProblem& compiled, const SequenceProblem& problem,
-                        const SequencePath& path) {
-  Arrangement result{path.cost, {}, {}};
-  result.consumed.assign(problem.database.resources.size(), 0);
-  for (const Step& step : path.steps) {
-    const auto& placement = compiled.placements[step.node];
-    if (!placement) continue;
-    result.placements.push_back(*placement);
-    const auto& uses = problem.database.elements[placement->element].uses;
-    for (std::size_t r = 0; r < uses.size(); ++r) result.consumed[r] += uses[r];
-  }
-  return result;
 }
 
 }  // namespace plat::sequences

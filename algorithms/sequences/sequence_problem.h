@@ -31,12 +31,13 @@ struct Segment {
   bool is_reversed = false;
   std::vector<Bounds> bounds;  ///< by resource, on this segment alone
   /// Whether the key elements at the two ends may touch, with no element between them. A segment
-  /// without key points always has an element.
+  /// with a free end always has an element.
   bool may_be_empty = true;
 };
 
-/// What is to be filled [Har, Sec. 3.3.4, Fig. 3.2]: a connected graph of key points (three
-/// segments at most at each) and segments. A single segment with free ends is a plain sequence.
+/// What is to be filled [Har, Sec. 3.3.4, Fig. 3.2]: a connected graph of key points (one segment
+/// at most at each of their three ports) and segments; a segment may lead from a key point back to
+/// it. A single segment with free ends is a plain sequence.
 struct Structure {
   std::vector<KeyPoint> key_points;
   std::vector<Segment> segments;
