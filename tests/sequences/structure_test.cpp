@@ -53,7 +53,7 @@ void for_random_structures(const std::string& name, const StructureSize& size, i
   }
   EXPECT_GT(5 * with_arrangements, count);
   EXPECT_GT(10 * without, count);
-  EXPECT_GT(15 * with_contexts, count);
+  EXPECT_GT(25 * with_contexts, count);
 }
 
 void expect_the_same_arrangements(const Case& one) {
