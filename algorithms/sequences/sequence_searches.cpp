@@ -1,5 +1,6 @@
 #include "sequences/sequence_search.h"
 
+#include "sequences/forward_search.h"
 #include "sequences/layered_search.h"
 
 namespace plat::sequences {
@@ -7,6 +8,7 @@ namespace plat::sequences {
 const Registry<AnySequenceSearch>& sequence_searches() {
   static const Registry<AnySequenceSearch> kMenu = [] {
     Registry<AnySequenceSearch> all;
+    all.add<ForwardSearch>();
     all.add<LayeredSearch>();
     return all;
   }();
