@@ -20,14 +20,12 @@ SequenceDatabase database() {
   SequenceDatabase out;
   out.resources = {{"length_m", 0.2}, {"balconies", 1.0}};
   for (ElementIndex e = 0; e < kFilling; ++e)
-    out.elements.push_back({.name = "middle",
-                            .uses = {static_cast<Amount>(5 + rng.index(21)),
-                                     static_cast<Amount>(rng.index(2))}});
+    out.elements.push_back(
+        {.name = "middle",
+         .uses = {static_cast<Amount>(5 + rng.index(21)), static_cast<Amount>(rng.index(2))}});
   for (ElementIndex e = 0; e < 3 * kPerClass; ++e)
-    out.elements.push_back({.name = "key",
-                            .uses = {10, 0},
-                            .arms = {{5, 0}, {5, 0}, {5, 0}},
-                            .is_filling = false});
+    out.elements.push_back(
+        {.name = "key", .uses = {10, 0}, .arms = {{5, 0}, {5, 0}, {5, 0}}, .is_filling = false});
   const auto touch = [&](ElementIndex a, Port at_a, ElementIndex b, Port at_b) {
     if (rng.uniform_01() < 0.5)
       out.transitions.push_back({a, b, at_a, at_b, static_cast<Cost>(rng.index(10'000)), {}});
@@ -45,8 +43,7 @@ SequenceDatabase database() {
 
 std::vector<ElementIndex> element_class(ElementIndex index) {
   std::vector<ElementIndex> elements;
-  for (ElementIndex e = 0; e < kPerClass; ++e)
-    elements.push_back(kFilling + index * kPerClass + e);
+  for (ElementIndex e = 0; e < kPerClass; ++e) elements.push_back(kFilling + index * kPerClass + e);
   return elements;
 }
 
@@ -116,4 +113,3 @@ BENCHMARK(find_best_arrangement)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace plat::sequences
-
