@@ -1,6 +1,7 @@
 #include "sequences/sequence_search.h"
 
 #include "sequences/forward_search.h"
+#include "sequences/intermediate_graph_search.h"
 #include "sequences/layered_search.h"
 
 namespace plat::sequences {
@@ -10,6 +11,7 @@ const Registry<AnySequenceSearch>& sequence_searches() {
     Registry<AnySequenceSearch> all;
     all.add<ForwardSearch>();
     all.add<LayeredSearch>();
+    all.add<IntermediateGraphSearch>();
     return all;
   }();
   return kMenu;
