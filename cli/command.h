@@ -20,6 +20,5 @@ void add_compare_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_figure_command(CLI::App& app, Action& action);
-void add_search_command(CLI::App& app, Action& action);
 
 }  // namespace plat::cli

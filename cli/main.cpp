@@ -47,7 +47,6 @@ int main(int argc, char** argv) {
   plat::cli::add_run_command(app, action);
   plat::cli::add_report_command(app, action);
   plat::cli::add_figure_command(app, action);
-  plat::cli::add_search_command(app, action);
   try {
     app.parse(argc, argv);
     return action();

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace plat::sequences {
 namespace {
 
+/// A zone of runs may take one in so many of all values: its box has cells that no path reaches.
+constexpr std::uint64_t kLargestShareOfRuns = 2;
+
 /// Builds the plan, zone by zone: backwards what must be remembered, forwards what is reached.
 class Planner {
  public:
-  Planner(const SearchGraph& graph, std::uint64_t max_cells)
-      : graph_(graph), max_cells_(max_cells) {
+  Planner(const SearchGraph& graph, std::uint64_t max_values)
+      : graph_(graph), max_values_(max_values) {
     plan_.zones.resize(graph.zones.size());
   }
 
@@ -21,12 +25,20 @@ class Planner {
     bound_below(is_entered);
     for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
       collect_classes(z);
-      if (!make_box(z, is_entered[z])) return std::nullopt;
+      if (is_entered[z] && !make_box(z)) return std::nullopt;
     }
+    for (const Terminal& entry : graph_.entries)
+      mark(plan_.zones[graph_.zone_of(entry.node)], std::vector<Amount>(graph_.dimension_count, 0),
+           graph_.uses(entry.node));
     for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
-      number_rows(z);
-      plan_.state_count += std::uint64_t{plan_.zones[z].row_count} * graph_.zones[z].size;
-      if (plan_.state_count > max_cells_) return std::nullopt;
+      ZoneLayers& layers = plan_.zones[z];
+      if (layers.run_dimension)
+        spread_reaches(layers);
+      else if (!layers.row_of_cell.empty())
+        number_rows(layers);
+      plan_.state_count += layers.reached_rows() * graph_.zones[z].size;
+      plan_.value_count += std::uint64_t{layers.row_count} * graph_.zones[z].size;
+      if (plan_.value_count > max_values_) return std::nullopt;
       enter_next_zones(z);
     }
     return std::move(plan_);
@@ -148,49 +160,116 @@ class Planner {
     }
   }
 
-  /// False where the boxes become too large.
-  bool make_box(std::size_t z, bool is_entered) {
-    ZoneLayers& layers = plan_.zones[z];
-    const std::uint32_t width = graph_.dimension_count;
-    layers.step.assign(width, 0);
-    bool is_dead = !is_entered;
-    for (std::uint32_t d = 0; d < width; ++d)
-      is_dead = is_dead || layers.lowest[d] > layers.highest[d];
-    if (is_dead) return true;
-    std::uint64_t cells = 1;
-    std::uint32_t counting = 0;
-    for (std::uint32_t d = width; d-- > 0;) {
-      layers.step[d] = cells;
-      const auto extent =
-          static_cast<std::uint64_t>(std::int64_t{layers.highest[d]} - layers.lowest[d] + 1);
-      counting += extent > 1 ? 1 : 0;
-      if (extent > max_cells_ / cells) return false;
-      cells *= extent;
+  [[nodiscard]] static std::uint64_t extent(const ZoneLayers& layers, std::uint32_t dimension) {
+    return static_cast<std::uint64_t>(std::int64_t{layers.highest[dimension]} -
+                                      layers.lowest[dimension] + 1);
+  }
+
+  /// The dimension of which every arc uses most, if that is enough.
+  static void choose_run_dimension(ZoneLayers& layers) {
+    for (std::uint32_t d = 0; d < layers.highest.size() && layers.class_count > 0; ++d) {
+      if (layers.saturates[d] || extent(layers, d) == 1) continue;
+      Amount least = kUnbounded;
+      for (std::uint32_t c = 0; c < layers.class_count; ++c)
+        least = std::min(least, layers.uses_of(c)[d]);
+      least = std::min<Amount>(least, kMaxWidth);
+      if (least < kLeastRunUse || least < layers.least_use) continue;
+      if (least == layers.least_use && extent(layers, d) <= extent(layers, *layers.run_dimension))
+        continue;
+      layers.run_dimension = d;
+      layers.least_use = least;
     }
-    cells_ += cells;
-    if (cells_ > max_cells_ || cells >= kNoRow) return false;
-    layers.row_count = static_cast<Row>(cells);
-    if (counting <= 1 && graph_.zones[z].table) return true;
-    layers.row_of_cell.assign(cells, kNoRow);
-    std::vector<Amount> none(width, 0);
-    for (const Terminal& entry : graph_.entries)
-      if (graph_.zone_of(entry.node) == z) mark(layers, none, graph_.uses(entry.node));
+  }
+
+  /// Gives every dimension its step. Nothing where there are more cells than `max_values_`.
+  std::optional<std::uint64_t> number_cells(ZoneLayers& layers) const {
+    const auto width = static_cast<std::uint32_t>(layers.highest.size());
+    layers.order.clear();
+    for (std::uint32_t d = 0; d < width; ++d)
+      if (d != layers.run_dimension) layers.order.push_back(d);
+    if (layers.run_dimension) layers.order.push_back(*layers.run_dimension);
+    layers.step.assign(width, 1);
+    std::uint64_t cells = 1;
+    for (std::uint32_t k = width; k-- > 0;) {
+      const std::uint32_t d = layers.order[k];
+      layers.step[d] = cells;
+      const bool is_run = d == layers.run_dimension;
+      const std::uint64_t count = extent(layers, d) + (is_run ? 2 * kRunMargin : 0);
+      if (count > max_values_ / cells) return std::nullopt;
+      cells *= count;
+      if (is_run) layers.run_stride = count;
+    }
+    return cells;
+  }
+
+  /// False where the boxes become too large.
+  bool make_box(std::size_t z) {
+    ZoneLayers& layers = plan_.zones[z];
+    std::uint32_t counting = 0;
+    for (std::uint32_t d = 0; d < graph_.dimension_count; ++d) {
+      if (layers.lowest[d] > layers.highest[d]) return true;
+      counting += extent(layers, d) > 1 ? 1 : 0;
+    }
+    choose_run_dimension(layers);
+    auto cells = number_cells(layers);
+    const std::uint64_t most = max_values_ / kLargestShareOfRuns / graph_.zones[z].size;
+    if (layers.run_dimension && (!cells || *cells > most)) {
+      layers.run_dimension.reset();
+      cells = number_cells(layers);
+    }
+    if (!cells) return false;
+    cells_ += *cells;
+    if (cells_ > max_values_ || *cells >= kNoRow) return false;
+    layers.row_count = static_cast<Row>(*cells);
+    if (layers.run_dimension)
+      layers.reaches.resize(*cells / layers.run_stride);
+    else if (counting > 1 || !graph_.zones[z].table)
+      layers.row_of_cell.assign(*cells, kNoRow);
     return true;
   }
 
   static void mark(ZoneLayers& layers, std::span<const Amount> consumed,
                    std::span<const Amount> used) {
-    if (layers.row_count == 0 || layers.row_of_cell.empty()) return;
-    const auto cell = layers.cell_after(consumed, used);
-    if (cell) layers.row_of_cell[*cell] = 0;
+    if (layers.row_count == 0) return;
+    if (layers.run_dimension) {
+      const Row row = layers.row_after(consumed, used);
+      if (row == kNoRow) return;
+      auto& reach = layers.reaches[row / layers.run_stride];
+      const auto offset = static_cast<std::uint32_t>(row % layers.run_stride - kRunMargin);
+      reach.first = std::min(reach.first, offset);
+      reach.last = std::max(reach.last, offset);
+    } else if (!layers.row_of_cell.empty()) {
+      if (const auto cell = layers.cell_after(consumed, used)) layers.row_of_cell[*cell] = 0;
+    }
   }
 
-  /// Follows the zone's uses from marked cell to marked cell, then numbers the cells.
-  void number_rows(std::size_t z) {
-    ZoneLayers& layers = plan_.zones[z];
-    if (layers.row_count == 0 || layers.row_of_cell.empty()) return;
-    const std::size_t width = graph_.dimension_count;
-    std::vector<Amount> amounts(width);
+  /// Follows the zone's uses from run to run.
+  void spread_reaches(ZoneLayers& layers) const {
+    std::vector<Amount> amounts(graph_.dimension_count);
+    std::vector<std::optional<std::size_t>> next(layers.class_count);
+    const auto top = static_cast<std::uint32_t>(extent(layers, *layers.run_dimension) - 1);
+    for (std::size_t run = 0; run < layers.reaches.size(); ++run) {
+      if (layers.reaches[run].is_empty()) continue;
+      layers.consumed(layers.first_row_of_run(run), amounts);
+      for (std::uint32_t c = 0; c < layers.class_count; ++c) next[c] = layers.run_after(amounts, c);
+      // Within a run, one arc may follow another up to the top.
+      if (std::ranges::find(next, run) != next.end()) layers.reaches[run].last = top;
+      for (std::uint32_t c = 0; c < layers.class_count; ++c) {
+        if (!next[c] || *next[c] == run) continue;
+        const auto used = static_cast<std::uint64_t>(layers.uses_of(c)[*layers.run_dimension]);
+        const std::uint64_t first = layers.reaches[run].first + used;
+        const std::uint64_t last = std::min<std::uint64_t>(top, layers.reaches[run].last + used);
+        if (first > top) continue;
+        auto& further = layers.reaches[*next[c]];
+        further.first = std::min(further.first, static_cast<std::uint32_t>(first));
+        further.last = std::max(further.last, static_cast<std::uint32_t>(last));
+      }
+    }
+  }
+
+  /// Follows the zone's uses from marked cell to marked cell, and numbers the cells.
+  void number_rows(ZoneLayers& layers) const {
+    std::vector<Amount> amounts(graph_.dimension_count);
     Row rows = 0;
     for (std::size_t cell = 0; cell < layers.row_of_cell.size(); ++cell) {
       if (layers.row_of_cell[cell] == kNoRow) continue;
@@ -198,30 +277,44 @@ class Planner {
       layers.row_of_cell[cell] = rows;
       layers.consumed(rows++, amounts);
       for (std::uint32_t c = 0; c < layers.class_count; ++c) {
-        const auto next =
-            layers.cell_after(amounts, std::span(layers.class_uses).subspan(c * width, width));
+        const auto next = layers.cell_after(amounts, layers.uses_of(c));
         if (next && *next > cell) layers.row_of_cell[*next] = 0;
       }
     }
     layers.row_count = rows;
   }
 
+  /// Marks what the links of a zone bring to later ones.
   void enter_next_zones(std::size_t z) {
     const ZoneLayers& layers = plan_.zones[z];
-    std::vector<Amount> amounts(graph_.dimension_count);
+    const std::size_t width = graph_.dimension_count;
+    std::vector<Amount> amounts(width);
+    std::vector<Amount> carried;  // `count` vectors one after the other, neighbours distinct
+    std::size_t count = 0;
     for (std::size_t t = 0; t < layers.targets.size(); ++t) {
-      ZoneLayers& next = plan_.zones[layers.target_zones[t]];
-      if (next.row_count == 0 || next.row_of_cell.empty()) continue;
-      for (Row row = 0; row < layers.row_count; ++row) {
-        layers.consumed(row, amounts);
-        if (carry_over(graph_.zones[z], graph_.zones[layers.target_zones[t]], amounts))
-          mark(next, amounts, graph_.uses(layers.targets[t]));
+      const std::uint32_t next = layers.target_zones[t];
+      if (plan_.zones[next].row_count == 0) continue;
+      if (t == 0 || next != layers.target_zones[t - 1]) {
+        carried.clear();
+        count = 0;
+        layers.for_each_row([&](Row row) {
+          layers.consumed(row, amounts);
+          if (!carry_over(graph_.zones[z], graph_.zones[next], amounts)) return;
+          if (count > 0 && std::equal(amounts.begin(), amounts.end(),
+                                      carried.end() - static_cast<std::ptrdiff_t>(width)))
+            return;
+          carried.insert(carried.end(), amounts.begin(), amounts.end());
+          ++count;
+        });
       }
+      for (std::size_t k = 0; k < count; ++k)
+        mark(plan_.zones[next], std::span(carried).subspan(k * width, width),
+             graph_.uses(layers.targets[t]));
     }
   }
 
   const SearchGraph& graph_;
-  std::uint64_t max_cells_;
+  std::uint64_t max_values_;
   std::uint64_t cells_ = 0;
   LayerPlan plan_;
 };
@@ -230,7 +323,7 @@ class Planner {
 
 std::optional<std::size_t> ZoneLayers::cell_after(std::span<const Amount> consumed,
                                                   std::span<const Amount> used) const {
-  std::size_t cell = 0;
+  std::size_t cell = run_dimension ? kRunMargin : 0;
   for (std::size_t d = 0; d < consumed.size(); ++d) {
     std::int64_t sum = std::int64_t{consumed[d]} + used[d];
     if (sum > highest[d]) {
@@ -250,12 +343,38 @@ Row ZoneLayers::row_after(std::span<const Amount> consumed, std::span<const Amou
   return row_of_cell.empty() ? static_cast<Row>(*cell) : row_of_cell[*cell];
 }
 
+std::optional<std::size_t> ZoneLayers::run_after(std::span<const Amount> consumed,
+                                                 std::uint32_t c) const {
+  std::size_t cell = 0;
+  const auto used = uses_of(c);
+  for (std::size_t d = 0; d < consumed.size(); ++d) {
+    if (d == run_dimension) continue;
+    std::int64_t sum = std::int64_t{consumed[d]} + used[d];
+    if (sum > highest[d]) {
+      if (!saturates[d]) return std::nullopt;
+      sum = highest[d];
+    }
+    if (sum < lowest[d]) return std::nullopt;
+    cell += static_cast<std::size_t>(sum - lowest[d]) * step[d];
+  }
+  return cell / run_stride;
+}
+
 void ZoneLayers::consumed(Row row, std::span<Amount> amounts) const {
   std::size_t cell = cell_of_row.empty() ? row : cell_of_row[row];
-  for (std::size_t d = 0; d < amounts.size(); ++d) {
+  for (const std::uint32_t d : order) {
     amounts[d] = lowest[d] + static_cast<Amount>(cell / step[d]);
     cell %= step[d];
   }
+  if (run_dimension) amounts[*run_dimension] -= static_cast<Amount>(kRunMargin);
+}
+
+std::uint64_t ZoneLayers::reached_rows() const {
+  if (!run_dimension) return row_count;
+  std::uint64_t rows = 0;
+  for (const Reach& reach : reaches)
+    if (!reach.is_empty()) rows += reach.last - reach.first + 1;
+  return rows;
 }
 
 bool carry_over(const Zone& from, const Zone& to, std::span<Amount> consumed) {
@@ -273,8 +392,8 @@ bool may_end(const Zone& zone, std::span<const Amount> consumed) {
   return true;
 }
 
-std::optional<LayerPlan> plan_layers(const SearchGraph& graph, std::uint64_t max_cells) {
-  return Planner(graph, max_cells).plan();
+std::optional<LayerPlan> plan_layers(const SearchGraph& graph, std::uint64_t max_values) {
+  return Planner(graph, max_values).plan();
 }
 
 }  // namespace plat::sequences

@@ -15,6 +15,7 @@ namespace {
 
 using plat::testing::enumerate_paths;
 using plat::testing::iterations;
+using plat::testing::k_best_paths;
 using plat::testing::property_rng;
 using plat::testing::random_plain_problem;
 using plat::testing::random_search_graph;
@@ -93,6 +94,70 @@ TEST(LayeredSearch, TurnsPositiveCirclesThatConsumeNothing) {
   EXPECT_EQ(paths[1].cost, 3);
   EXPECT_EQ(paths[4].cost, 9);
   EXPECT_EQ(paths[4].steps.size(), 5U);
+}
+
+/// Long uses, so that zones have runs, in a graph of one or two dimensions.
+SearchGraph random_long_graph(Rng& rng) {
+  SequenceDatabase database;
+  const std::size_t elements = 2 + rng.index(9);
+  const std::size_t resources = 1 + rng.index(2);
+  const bool is_dense = rng.index(2) == 0;
+  const bool has_uses = rng.index(3) == 0;
+  for (std::size_t r = 0; r < resources; ++r) database.resources.push_back({"r", 1.0});
+  for (std::size_t e = 0; e < elements; ++e) {
+    Element element{.name = std::to_string(e)};
+    element.uses.push_back(static_cast<Amount>(4 + rng.index(40)));
+    if (resources > 1) element.uses.push_back(static_cast<Amount>(rng.index(3)));
+    element.is_front = rng.index(4) > 0;
+    element.is_back = rng.index(4) > 0;
+    database.elements.push_back(element);
+  }
+  for (std::uint32_t from = 0; from < elements; ++from)
+    for (std::uint32_t to = 0; to < elements; ++to)
+      for (std::size_t parallel = rng.index(is_dense ? 10 : 3) / (is_dense ? 5 : 2);
+           parallel-- > 0;) {
+        Transition transition{.from = from, .to = to, .cost = static_cast<Cost>(rng.index(30))};
+        if (has_uses && rng.index(2) == 0) {
+          transition.uses.assign(resources, 0);
+          transition.uses[0] = static_cast<Amount>(rng.index(5));
+        }
+        database.transitions.push_back(transition);
+      }
+  const auto length = static_cast<Amount>(rng.index(400));
+  std::vector<Bounds> bounds{{length, length + static_cast<Amount>(rng.index(2) * rng.index(30))}};
+  if (resources > 1) {
+    const auto least = static_cast<Amount>(rng.index(6));
+    bounds.push_back(
+        {least, rng.index(2) == 0 ? kUnbounded : least + static_cast<Amount>(rng.index(4))});
+  }
+  return compile(plain_sequence(std::move(database), std::move(bounds))).graph;
+}
+
+TEST(LayeredSearch, AgreesWithTheOracleOnLongSequencesOnAllInstructionSets) {
+  constexpr std::array<InstructionSet, 3> kSets{InstructionSet::kScalar, InstructionSet::kAvx2,
+                                                InstructionSet::kAvx512};
+  Rng rng = property_rng("layered.long");
+  int feasible = 0;
+  for (int i = 0; i < iterations(150); ++i) {
+    const SearchGraph graph = random_long_graph(rng);
+    const auto best = k_best_paths(graph, 30);
+    feasible += best.empty() ? 0 : 1;
+    std::vector<SequencePath> first;
+    for (const InstructionSet set : kSets) {
+      if (!is_supported(set)) continue;
+      const auto paths = first_paths(graph, 30, {.instructions = set});
+      ASSERT_EQ(paths.size(), best.size()) << i;
+      for (std::size_t p = 0; p < paths.size(); ++p) {
+        ASSERT_EQ(paths[p].cost, best[p].cost) << i << ", path " << p;
+        ASSERT_EQ(why_not_feasible(graph, paths[p]), "");
+        if (set != kSets[0]) {
+          ASSERT_EQ(paths[p].steps, first[p].steps) << i << ", path " << p;
+        }
+      }
+      first = paths;
+    }
+  }
+  EXPECT_GT(feasible, iterations(50));
 }
 
 TEST(LayeredSearch, FailsWhereTheTableExceedsItsMemory) {
