@@ -20,5 +20,6 @@ void add_compare_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_figure_command(CLI::App& app, Action& action);
+void add_parts_command(CLI::App& app, Action& action);
 
 }  // namespace plat::cli

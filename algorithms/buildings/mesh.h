@@ -81,9 +81,16 @@ double area_m2(const Mesh& mesh, const Face& face);
 /// Twice the area along the outward normal.
 Point3 normal(const Mesh& mesh, const Face& face);
 
+/// The point on a grid of 2^-16 m, which mesh files hold exactly up to 128 m: they are made of
+/// floats.
+Point3 as_stored(Point3 p);
+
 /// Appends `other` (its own vertices, not welded); materials of the same name and colour become
 /// one. Port tags are kept.
 void append(Mesh& mesh, const Mesh& other);
+
+/// Leaves the materials that faces have, in the order in which faces first have them.
+void drop_unused_materials(Mesh& mesh);
 
 /// Reads OBJ, PLY or OFF, by the file's ending. Polygons are split into triangles. Face colours
 /// become materials; where the file has none, there is one material "default".

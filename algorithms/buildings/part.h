@@ -106,6 +106,13 @@ inline constexpr double kFloorAreaQuantum_m2 = 1.0;
 Part make_part(std::string name, const PartShape& shape, Mesh mesh,
                std::map<std::string, double> attributes);
 
+/// An arm is a multiple of the quantum where it is within this many quanta of one: what the
+/// rounding of decimals to doubles leaves.
+inline constexpr double kQuantumTolerance = 1e-6;
+
+/// Whether every arm is a multiple of `quantum_m`.
+bool is_quantised(const Part& part, double quantum_m = kLengthQuantum_m);
+
 /// How far a part was from the quantum, and what was done about it.
 struct Quantised {
   Part part;
