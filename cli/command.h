@@ -21,5 +21,6 @@ void add_run_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_figure_command(CLI::App& app, Action& action);
 void add_parts_command(CLI::App& app, Action& action);
+void add_search_command(CLI::App& app, Action& action);
 
 }  // namespace plat::cli

@@ -3,11 +3,13 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "command.h"
 #include "geodata/dataset_catalogue.h"
 #include "harness/experiment_config.h"
 #include "parcels/block_subdivider.h"
+#include "sequences/sequence_search.h"
 
 namespace plat::cli {
 namespace {
@@ -26,23 +28,18 @@ json field_json(const FieldDescription& field) {
   return out;
 }
 
-void list_strategies(bool as_json) {
-  const auto& menu = parcels::block_subdividers();
-  if (as_json) {
-    json out = json::array();
-    for (const std::string& name : menu.names()) {
-      json fields = json::array();
-      for (const FieldDescription& field : menu.at(name).fields)
-        fields.push_back(field_json(field));
-      out.push_back({{"family", "block_subdivider"},
-                     {"name", name},
-                     {"summary", menu.at(name).summary},
-                     {"options", fields}});
-    }
-    fmt::print("{}\n", out.dump(1));
-    return;
-  }
-  fmt::print("Block subdivision (plat subdivide --strategy NAME --set key=value):\n");
+/// Calls `visit(family, how, menu)` for each family of strategies.
+template <class Visit>
+void for_each_family(Visit visit) {
+  visit("block_subdivider", "Block subdivision (plat subdivide --strategy NAME --set key=value)",
+        parcels::block_subdividers());
+  visit("sequence_search", "Search of sequences (plat search --method NAME --set key=value)",
+        sequences::sequence_searches());
+}
+
+template <class Menu>
+void print_menu(std::string_view how, const Menu& menu) {
+  fmt::print("{}:\n", how);
   for (const std::string& name : menu.names()) {
     fmt::print("\n  {}: {}\n", name, menu.at(name).summary);
     for (const FieldDescription& field : menu.at(name).fields) {
@@ -53,6 +50,28 @@ void list_strategies(bool as_json) {
                  field.description);
     }
   }
+}
+
+void list_strategies(bool as_json) {
+  json out = json::array();
+  std::string_view gap;
+  for_each_family([&](std::string_view family, std::string_view how, const auto& menu) {
+    if (!as_json) {
+      fmt::print("{}", std::exchange(gap, "\n"));
+      print_menu(how, menu);
+      return;
+    }
+    for (const std::string& name : menu.names()) {
+      json fields = json::array();
+      for (const FieldDescription& field : menu.at(name).fields)
+        fields.push_back(field_json(field));
+      out.push_back({{"family", family},
+                     {"name", name},
+                     {"summary", menu.at(name).summary},
+                     {"options", fields}});
+    }
+  });
+  if (as_json) fmt::print("{}\n", out.dump(1));
 }
 
 void list_datasets(bool as_json) {

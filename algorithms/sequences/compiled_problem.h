@@ -38,7 +38,8 @@ struct CompiledProblem {
   std::vector<std::optional<Placement>> placements;
   std::vector<std::vector<std::uint32_t>> arc_transitions;  ///< by table, then by arc
   std::vector<std::uint32_t> link_transitions;              ///< by link, or `kNoTransition`
-  std::vector<bool> is_walked_backwards;  ///< by segment: the path meets `to` before `from`
+  std::vector<bool> is_walked_backwards;     ///< by segment: the path meets `to` before `from`
+  std::vector<std::uint32_t> zone_segments;  ///< by zone: the segment that local bounds are of
 };
 
 /// Compiles a problem: plain sequences to one zone, structures by unrolling (ADR 0017, 0023). Only

@@ -85,6 +85,7 @@ CompiledProblem compile(const SequenceProblem& problem) {
       right_to_left_table(database, compiled.dimensions, compiled.arc_transitions.back()));
   compiled.is_walked_backwards.assign(1, problem.structure.segments.front().is_reversed);
   graph.zones.push_back(std::move(zone));
+  compiled.zone_segments = {0};
   validate(graph);
   return compiled;
 }

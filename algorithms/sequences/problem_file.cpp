@@ -165,8 +165,8 @@ class ProblemReader {
       throw InputError(fmt::format(
           "{}: the values of {} share no step of at most 9 decimals; give one (\"step\")", where,
           name));
-    read_.notes.push_back(
-        fmt::format("{}: step {} found, which {} values share", name, *step, values.size()));
+    read_.notes.push_back(fmt::format("{}: step {} found, the greatest common divisor of {} values",
+                                      name, *step, values.size()));
     return *step;
   }
   double step_of(const json& value, const std::string& where) {

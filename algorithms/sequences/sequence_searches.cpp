@@ -1,5 +1,7 @@
 #include "sequences/sequence_search.h"
 
+#include "sequences/forward_search.h"
+#include "sequences/intermediate_graph_search.h"
 #include "sequences/layered_search.h"
 
 namespace plat::sequences {
@@ -7,7 +9,9 @@ namespace plat::sequences {
 const Registry<AnySequenceSearch>& sequence_searches() {
   static const Registry<AnySequenceSearch> kMenu = [] {
     Registry<AnySequenceSearch> all;
+    all.add<ForwardSearch>();
     all.add<LayeredSearch>();
+    all.add<IntermediateGraphSearch>();
     return all;
   }();
   return kMenu;

@@ -175,6 +175,7 @@ class Unrolling {
       zone.resets.push_back(is_start && is_local);
     }
     graph_.zones.push_back(std::move(zone));
+    compiled_.zone_segments.push_back(stage.visit.directed.segment);
     graph_.node_uses.resize(std::size_t{graph_.node_count()} * graph_.dimension_count, 0);
     compiled_.placements.resize(graph_.node_count());
     return graph_.zones.back().first_node;

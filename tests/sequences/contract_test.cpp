@@ -149,7 +149,7 @@ struct Twin {
     if (fault == Fault::kIgnoresBounds)
       for (auto& zone : searched.zones)
         for (auto& bounds : zone.bounds) bounds.min = 0;
-    auto paths = k_best_paths(searched, 301);
+    auto paths = k_best_paths(searched, 61);
     if (paths.empty()) return paths;
     if (fault == Fault::kSkipsTheBest) paths.erase(paths.begin());
     if (fault == Fault::kRepeats) paths.insert(paths.begin(), paths.front());
@@ -186,7 +186,9 @@ int objections(Fault fault) {
   Rng rng = property_rng("twins");
   int count = 0;
   for (int i = 0; i < 80; ++i) {
-    const Case one = random_case(rng, i % 2 == 0);
+    Case one = random_case(rng, i % 2 == 0);
+    one.k = std::min<std::size_t>(one.k, 60);
+    one.best.resize(std::min(one.best.size(), one.k));
     count += why_not_in_contract(Twin{fault}, one.graph, one.best, one.k).empty() ? 0 : 1;
   }
   return count;

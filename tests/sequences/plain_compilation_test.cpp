@@ -42,5 +42,26 @@ TEST(PlainCompilation, RefusesACircleThatCostsAndConsumesNothing) {
   EXPECT_THROW(compile(plain_sequence(database, {{5, kUnbounded}, {}})), InputError);
 }
 
+TEST(PlainCompilation, FindsTransitionsHoweverTheyAreStored) {
+  SequenceDatabase database = two_elements();
+  database.transitions[1] = {
+      .from = 0, .to = 1, .from_port = Port::kLeft, .to_port = Port::kRight, .cost = 7};
+  const auto compiled = compile(plain_sequence(database, {{7, 7}, {}}));
+  EXPECT_EQ(why_not_feasible(compiled.graph, SequencePath{12, {{0, 0}, {1, 0}, {0, 1}}}), "");
+}
+
+TEST(PlainCompilation, GivesBackASequenceWithWhatItsTransitionsConsume) {
+  SequenceDatabase database = two_elements();
+  database.transitions[0].uses = {0, 4};
+  auto problem = plain_sequence(database, {{5, 5}, {}});
+  const SequencePath ab{5, {{0, 0}, {1, 0}}};
+  const auto found = arrangement(compile(problem), problem, ab);
+  EXPECT_EQ(found.consumed, (std::vector<std::int64_t>{5, 5}));
+  EXPECT_EQ(by_part(problem.structure, found).segments[0], (std::vector<ElementIndex>{0, 1}));
+  problem.structure.segments[0].is_reversed = true;
+  const auto turned = arrangement(compile(problem), problem, ab);
+  EXPECT_EQ(by_part(problem.structure, turned).segments[0], (std::vector<ElementIndex>{1, 0}));
+}
+
 }  // namespace
 }  // namespace plat::sequences

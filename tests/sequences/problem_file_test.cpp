@@ -36,8 +36,8 @@ TEST(ProblemFile, FindsTheStepAndTellsIt) {
   EXPECT_EQ(read.problem.database.transitions[0].cost, 1);
   EXPECT_EQ(read.problem.bounds[0], (Bounds{7, 7}));
   ASSERT_EQ(read.notes.size(), 2U);
-  EXPECT_EQ(read.notes[0], "length_m: step 0.3 found, which 2 values share");
-  EXPECT_EQ(read.notes[1], "cost: step 0.25 found, which 1 values share");
+  EXPECT_EQ(read.notes[0], "length_m: step 0.3 found, the greatest common divisor of 2 values");
+  EXPECT_EQ(read.notes[1], "cost: step 0.25 found, the greatest common divisor of 1 values");
 }
 
 TEST(ProblemFile, WithoutSegmentsIsAPlainSequence) {

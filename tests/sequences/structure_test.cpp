@@ -88,5 +88,93 @@ TEST(Unrolling, EveryStrategyFindsTheCheapestArrangements) {
   });
 }
 
+/// The structure drawn from the other end of each of its segments.
+SequenceProblem drawn_backwards(SequenceProblem problem) {
+  for (Segment& segment : problem.structure.segments) {
+    std::swap(segment.from, segment.to);
+    std::swap(segment.from_port, segment.to_port);
+    segment.is_reversed = !segment.is_reversed;
+  }
+  return problem;
+}
+
+Port mirrored(Port port) {
+  if (port == Port::kStem) return port;
+  return port == Port::kLeft ? Port::kRight : Port::kLeft;
+}
+
+/// Everything seen in a mirror: left is right, in the database and in the structure.
+SequenceProblem in_a_mirror(SequenceProblem problem) {
+  for (Element& element : problem.database.elements) {
+    std::swap(element.is_front, element.is_back);
+    if (!element.arms.empty()) std::swap(element.arms[0], element.arms[1]);
+  }
+  for (Transition& transition : problem.database.transitions) {
+    transition.from_port = mirrored(transition.from_port);
+    transition.to_port = mirrored(transition.to_port);
+  }
+  for (Segment& segment : problem.structure.segments) {
+    segment.from_port = mirrored(segment.from_port);
+    segment.to_port = mirrored(segment.to_port);
+    segment.is_reversed = !segment.is_reversed;
+  }
+  return problem;
+}
+
+/// Each adjacency stored the other way round.
+SequenceProblem stored_backwards(SequenceProblem problem) {
+  for (Transition& transition : problem.database.transitions) {
+    std::swap(transition.from, transition.to);
+    std::swap(transition.from_port, transition.to_port);
+  }
+  return problem;
+}
+
+TEST(Unrolling, HasTheSameArrangementsForTwins) {
+  for_random_structures("structure.twins", {}, iterations(150), [](const Case& one) {
+    auto turned = one.arrangements;
+    for (auto& found : turned)
+      for (auto& row : found.segments) std::ranges::reverse(row);
+    std::ranges::sort(turned);
+    const auto expect = [](const SequenceProblem& twin,
+                           const std::vector<PlainArrangement>& expected) {
+      const auto found = arrangements_of_all_paths(compile(twin), twin);
+      EXPECT_TRUE(!found || *found == expected);
+    };
+    expect(drawn_backwards(one.problem), turned);
+    expect(in_a_mirror(one.problem), one.arrangements);
+    expect(stored_backwards(one.problem), one.arrangements);
+  });
+}
+
+/// A key point that any element may take says nothing, but for where it is: a sequence of n
+/// elements has n - 2 places for it.
+TEST(Unrolling, FindsPlainSequencesOnceForEachPlaceOfAKeyPointThatAnyElementMayTake) {
+  Rng rng = property_rng("structure.everything");
+  int long_ones = 0;
+  for (int i = 0; i < iterations(60); ++i) {
+    auto database = random_structure_problem(rng, {.filling = 3, .key_elements = 0}).database;
+    for (Element& element : database.elements) element.arms.clear();
+    const auto length = static_cast<Amount>(4 + rng.index(4));
+    const auto plain = plain_sequence(database, {{length, length}});
+    SequenceProblem chain = plain;
+    chain.structure = {{{"any", {0, 1, 2}}}, {Segment{}, Segment{}}};
+    chain.structure.segments[0].to = 0;
+    chain.structure.segments[1].from = 0;
+    const auto sequences = arrangements_of_all_paths(compile(plain), plain);
+    const auto found = arrangements_of_all_paths(compile(chain), chain);
+    if (!sequences || !found) continue;
+    std::vector<Cost> expected;
+    for (const auto& sequence : *sequences)
+      for (std::size_t n = 2; n < sequence.segments[0].size(); ++n)
+        expected.push_back(sequence.cost);
+    std::vector<Cost> costs;
+    for (const auto& arrangement : *found) costs.push_back(arrangement.cost);
+    EXPECT_EQ(costs, expected) << i;
+    long_ones += costs.empty() ? 0 : 1;
+  }
+  EXPECT_GT(long_ones, iterations(60) / 4);
+}
+
 }  // namespace
 }  // namespace plat::sequences

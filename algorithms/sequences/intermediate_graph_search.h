@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <tuple>
+
+#include "core/failure.h"
+#include "core/options.h"
+#include "sequences/search_graph.h"
+#include "sequences/sequence_search.h"
+
+namespace plat::sequences {
+
+/// Builds the graph of all feasible paths, ordered by what is consumed, and finds the shortest
+/// paths in it.
+///
+/// Equal costs come in the order of `KShortestWalks`, arcs of a state as in its table, links after
+/// arcs, the exit last.
+///
+/// Guarantees: 1. those of `SequenceSearch`;  2. `states_created` is the number of nodes of the
+/// thesis's graph after its prunings, `states_pruned` how many dead ends there were.
+/// @returns       Failure kTooManyStates beyond `max_states`
+/// Complexity:    O(states x arcs of a node) for the first path, then as `KShortestWalks`
+/// Paper:         [Har, Sec. 3.3]; k best by [Epp94]
+/// Deviation:     ADR 0019
+class IntermediateGraphSearch {
+ public:
+  static constexpr std::string_view kName = "intermediate_graph";
+  static constexpr std::string_view kSummary =
+      "the graph of all feasible sequences, grown from both ends by what is consumed, then k "
+      "shortest paths [Har, Sec. 3.3]";
+  struct Options {
+    std::uint32_t max_states = 50'000'000;  ///< states held, dead ends included
+    /// Last states from which growth from the end may begin; more, and it is from the front alone.
+    std::uint32_t max_end_states = 100'000;
+    static constexpr auto fields() {
+      return std::tuple{
+          Field{"max_states", &Options::max_states, 1, 1'000'000'000,
+                "states that may be held, dead ends included; more is a failure"},
+          Field{"max_end_states", &Options::max_end_states, 0, 1'000'000'000,
+                "last states from which the graph is grown backwards; where the bounds allow more, "
+                "it is grown from the front alone, to the same graph"}};
+    }
+  };
+
+  explicit IntermediateGraphSearch(const Options& options) : options_(options) {}
+  [[nodiscard]] Expected<std::unique_ptr<SequenceStream>> search(const SearchGraph& graph) const;
+  [[nodiscard]] const Options& options() const { return options_; }
+
+ private:
+  Options options_;
+};
+static_assert(SequenceSearch<IntermediateGraphSearch> && Registrable<IntermediateGraphSearch>);
+
+}  // namespace plat::sequences
