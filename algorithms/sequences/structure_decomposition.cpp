@@ -32,14 +32,14 @@ struct Trail {
 };
 
 /// Finds the longest trails among segments that lie on no path yet, by trying all: there are few,
-/// as a key point has three segments at most and cycles are few.
+/// as a key point has three segments at most and cycles are few. Where a trail meets a path or
+/// itself, it took the third segment, and ends.
 class TrailSearch {
  public:
   explicit TrailSearch(const Structure& structure)
       : structure_(structure),
         leaving_(structure.key_points.size()),
-        is_used_(structure.segments.size(), false),
-        is_met_(structure.key_points.size(), false) {
+        is_used_(structure.segments.size(), false) {
     for (std::uint32_t s = 0; s < structure.segments.size(); ++s) {
       for (const bool is_forward : {true, false})
         if (const auto key = start_of(structure, {s, is_forward}))
@@ -47,13 +47,9 @@ class TrailSearch {
     }
   }
 
-  /// Puts a trail on a path: its segments are used, its key points met.
+  /// Puts a trail on a path: its segments are used.
   void take(const Trail& trail) {
-    for (const auto& directed : trail.segments) {
-      is_used_[directed.segment] = true;
-      for (const auto& key : {start_of(structure_, directed), end_of(structure_, directed)})
-        if (key) is_met_[*key] = true;
-    }
+    for (const auto& directed : trail.segments) is_used_[directed.segment] = true;
   }
   /// The longest trail that leaves a key point, empty where all of its segments are used.
   Trail longest_from(KeyPointIndex key) { return search(key, std::nullopt); }
@@ -86,11 +82,8 @@ class TrailSearch {
     return std::move(best_);
   }
   void extend(KeyPointIndex key) {
-    const bool was_met = is_met_[key];
-    is_met_[key] = true;
     for (const auto& directed : leaving_[key])
       if (!is_used_[directed.segment]) follow(directed);
-    is_met_[key] = was_met;
   }
   void follow(const DirectedSegment& directed) {
     const std::int64_t length = minimum_of(directed.segment);
@@ -99,7 +92,7 @@ class TrailSearch {
     is_used_[directed.segment] = true;
     const auto end = end_of(structure_, directed);
     if ((!target_ || end == target_) && current_.is_longer_than(best_)) best_ = current_;
-    if (end && !is_met_[*end]) extend(*end);
+    if (end) extend(*end);
     is_used_[directed.segment] = false;
     current_.primary_minimum -= length;
     current_.segments.pop_back();
@@ -112,7 +105,6 @@ class TrailSearch {
   const Structure& structure_;
   std::vector<std::vector<DirectedSegment>> leaving_;  // by key point
   std::vector<bool> is_used_;
-  std::vector<bool> is_met_;
   Trail current_;
   Trail best_;
   std::optional<KeyPointIndex> target_;
