@@ -28,6 +28,18 @@ bool Consumption::add(std::uint32_t zone, std::span<Amount> consumed,
   return true;
 }
 
+bool Consumption::follow_arc(std::uint32_t zone, std::uint32_t arc,
+                             std::span<Amount> consumed) const {
+  const TransitionTable& table = graph_->tables[*graph_->zones[zone].table];
+  if (!table.arc_uses.empty()) {
+    const std::span<const Amount> uses(
+        table.arc_uses.data() + std::size_t{arc} * graph_->dimension_count,
+        graph_->dimension_count);
+    if (!add(zone, consumed, uses)) return false;
+  }
+  return add(zone, consumed, graph_->uses(graph_->zones[zone].first_node + table.arcs[arc].head));
+}
+
 bool Consumption::follow(const Link& link, std::span<Amount> consumed) const {
   const auto left = limits(zone_of(link.from));
   const std::uint32_t zone = zone_of(link.to);

@@ -49,6 +49,8 @@ class Consumption {
 
   /// Adds `used` to `consumed` in place. @returns false where that exceeds a maximum
   bool add(std::uint32_t zone, std::span<Amount> consumed, std::span<const Amount> used) const;
+  /// Follows an arc of the zone's table in place. @returns false where that exceeds a maximum
+  bool follow_arc(std::uint32_t zone, std::uint32_t arc, std::span<Amount> consumed) const;
   /// Follows a link in place: minima of what is reset, the reset, what the head uses.
   bool follow(const Link& link, std::span<Amount> consumed) const;
   /// Whether a path may end here, if the node is an exit.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -52,12 +51,12 @@ struct Walk {
 /// order. Lists and heaps are made for the vertices that walks come by, when they do.
 ///
 /// Guarantees: 1. costs do not decrease;  2. every walk comes once, also where arcs are parallel;
-/// 3. equal costs come in the order in which their candidates were found: of one walk, those that
-/// change its last sidetrack before those that add one;  4. memory grows with the number of walks
-/// taken and the vertices they come by, not with the number of walks there are.
-/// Complexity:    O(d log d + log n) for a vertex of d arcs, once; O(log k + length) for a walk
-/// Paper:         [Epp94]
-/// Deviation:     lists are sorted where the paper has heaps: a candidate then has two children
+/// 3. of candidates of equal cost the one found last comes first: a walk's extensions, then those
+/// that change its last sidetrack, then older ones, so that among arcs without a cost a search goes
+/// deep;  4. memory grows with the number of walks taken and the vertices they come by, not with
+/// the number of walks there are. Complexity:    O(d log d + log n) for a vertex of d arcs, once;
+/// O(log k + length) for a walk Paper:         [Epp94] Deviation:     lists are sorted where the
+/// paper has heaps: a candidate then has two children
 ///                or four
 template <WalkGraph G>
 class KShortestWalks {
@@ -74,7 +73,7 @@ class KShortestWalks {
     if (last_ != kNone) add_children();
     last_ = kNone;
     if (queue_.empty()) return false;
-    last_ = queue_.top().second;
+    last_ = queue_.top().candidate;
     queue_.pop();
     may_extend_ = true;
     write(walk);
@@ -116,7 +115,14 @@ class KShortestWalks {
     std::uint32_t heap_node = kNone;  ///< none: the shortest walk
     std::uint32_t sidetrack = kNone;
   };
-  using Entry = std::pair<Cost, std::uint32_t>;
+  /// A candidate in the queue: the cheapest on top, of those the youngest.
+  struct Entry {
+    Cost cost = 0;
+    std::uint32_t candidate = 0;
+    friend bool operator<(const Entry& a, const Entry& b) {
+      return a.cost != b.cost ? a.cost > b.cost : a.candidate < b.candidate;
+    }
+  };
 
   bool begin(Walk& walk) {
     has_begun_ = true;
@@ -187,7 +193,7 @@ class KShortestWalks {
            std::uint32_t sidetrack) {
     const Cost replaced = from.heap_node == kNone ? 0 : sidetracks_[from.sidetrack].delta;
     const Cost cost = from.cost - replaced + sidetracks_[sidetrack].delta;
-    queue_.emplace(cost, static_cast<std::uint32_t>(candidates_.size()));
+    queue_.push({cost, static_cast<std::uint32_t>(candidates_.size())});
     candidates_.push_back({cost, prefix, heap_node, sidetrack});
   }
 
@@ -245,7 +251,7 @@ class KShortestWalks {
   std::vector<Sidetrack> sidetracks_;  ///< the lists, each sorted
   std::vector<HeapNode> nodes_;
   std::vector<Candidate> candidates_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  std::priority_queue<Entry> queue_;
   std::vector<std::uint32_t> chain_;
   std::uint32_t last_ = kNone;  ///< the candidate that was taken last
   bool has_begun_ = false;

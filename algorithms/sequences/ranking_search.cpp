@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
+#include <numeric>
 #include <queue>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sequences/completable_states.h"
 #include "sequences/consumption.h"
+#include "sequences/graph_pruning.h"
 #include "sequences/k_shortest_walks.h"
 
 namespace plat::sequences {
@@ -93,28 +95,35 @@ class Unconstrained {
   std::vector<Label> labels_;           ///< by vertex
 };
 
+/// How many states are kept that are known to end well or not: some 100 MB.
+constexpr std::size_t kLookaheadStates = 2'000'000;
+
 class Stream final : public SequenceStream {
  public:
-  Stream(const SearchGraph& graph, std::uint32_t max_walks)
-      : graph_(graph),
-        consumption_(graph),
-        walks_(Unconstrained(graph, consumption_)),
-        max_walks_(max_walks) {}
+  Stream(PrunedGraph pruned, const RankingSearch::Options& options)
+      : pruned_(std::move(pruned)),
+        graph_(pruned_.graph),
+        options_(options),
+        consumption_(graph_),
+        completable_(consumption_, pruned_.bounds, kLookaheadStates),
+        walks_(Unconstrained(graph_, consumption_)) {}
 
   Expected<bool> next(SequencePath& path) override {
     while (walks_.next(walk_)) {
-      if (statistics_.states_expanded == max_walks_)
-        return fail(FailureCode::kTooManyStates, "looked at " + std::to_string(max_walks_) +
-                                                     " walks, of which " + std::to_string(found_) +
-                                                     " keep the bounds; raise max_walks, or take " +
-                                                     "another method");
+      if (statistics_.states_expanded == options_.max_walks)
+        return fail(FailureCode::kTooManyStates,
+                    "looked at " + std::to_string(options_.max_walks) + " walks, of which " +
+                        std::to_string(statistics_.states_created) +
+                        " keep the bounds; raise max_walks, or take another method");
       ++statistics_.states_expanded;
       statistics_.arcs_relaxed += walk_.arcs.size();
-      const std::size_t kept = arcs_within_maxima();
-      if (kept < walk_.fixed) walks_.forbid_extensions();
-      if (kept < walk_.arcs.size()) continue;
-      ++found_;
-      write(path);
+      if (!keeps_bounds()) continue;
+      ++statistics_.states_created;
+      path.cost = walk_.cost;
+      path.steps.clear();
+      for (std::size_t i = 0; i + 1 < walk_.arcs.size(); ++i)
+        path.steps.push_back({walk_.arcs[i].head, walk_.arcs[i].arc});
+      pruned_.restore(path);
       return true;
     }
     return false;
@@ -127,54 +136,77 @@ class Stream final : public SequenceStream {
   }
 
  private:
-  /// How many arcs of the walk keep the bounds: all, or the number before the first that does not.
-  std::size_t arcs_within_maxima() {
-    std::uint32_t node = walk_.arcs.front().head;
+  /// Follows the walk. Where it cannot end well any more before its last detour is over, nor can
+  /// the walks that begin as it does.
+  bool keeps_bounds() {
     consumed_.assign(graph_.dimension_count, 0);
-    if (!consumption_.add(consumption_.zone_of(node), consumed_, graph_.uses(node))) return 0;
-    for (std::size_t i = 1; i + 1 < walk_.arcs.size(); ++i) {
-      if (!follow(node, walk_.arcs[i])) return i;
-      node = walk_.arcs[i].head;
+    std::uint32_t tail = walks_.graph().source();
+    for (std::size_t i = 0; i + 1 < walk_.arcs.size(); ++i) {
+      const std::uint32_t head = walk_.arcs[i].head;
+      const bool is_hopeless = !follow(tail, walk_.arcs[i]) || cannot_end(head);
+      if (is_hopeless && i < walk_.fixed) {
+        walks_.forbid_extensions();
+        ++statistics_.states_pruned;
+      }
+      if (is_hopeless) return false;
+      tail = head;
     }
-    const bool is_complete = consumption_.may_end(consumption_.zone_of(node), consumed_);
-    return walk_.arcs.size() - (is_complete ? 0 : 1);
+    return consumption_.may_end(consumption_.zone_of(tail), consumed_);
+  }
+
+  [[nodiscard]] bool cannot_end(std::uint32_t node) {
+    switch (options_.pruning) {
+      case RankingSearch::Pruning::kNone:
+        return false;
+      case RankingSearch::Pruning::kResources:
+        return !pruned_.bounds.may_end(node, consumed_);
+      case RankingSearch::Pruning::kStates:
+        return !completable_.may_end(node, consumed_);
+    }
+    return false;
   }
 
   bool follow(std::uint32_t tail, const WalkArc& step) {
     const std::uint32_t zone = consumption_.zone_of(step.head);
+    if (tail == walks_.graph().source())
+      return consumption_.add(zone, consumed_, graph_.uses(step.head));
     if (consumption_.zone_of(tail) != zone)
       return consumption_.follow(graph_.links[step.arc], consumed_);
-    const TransitionTable& table = graph_.tables[*graph_.zones[zone].table];
-    if (!table.arc_uses.empty()) {
-      const std::span<const Amount> uses(
-          table.arc_uses.data() + std::size_t{step.arc} * graph_.dimension_count,
-          graph_.dimension_count);
-      if (!consumption_.add(zone, consumed_, uses)) return false;
-    }
-    return consumption_.add(zone, consumed_, graph_.uses(step.head));
+    return consumption_.follow_arc(zone, step.arc, consumed_);
   }
 
-  void write(SequencePath& path) const {
-    path.cost = walk_.cost;
-    path.steps.clear();
-    for (std::size_t i = 0; i + 1 < walk_.arcs.size(); ++i)
-      path.steps.push_back({walk_.arcs[i].head, walk_.arcs[i].arc});
-  }
-
+  PrunedGraph pruned_;
   const SearchGraph& graph_;
+  RankingSearch::Options options_;
   Consumption consumption_;
+  CompletableStates completable_;
   KShortestWalks<Unconstrained> walks_;
-  std::uint32_t max_walks_;
   Walk walk_;
   std::vector<Amount> consumed_;
-  std::uint64_t found_ = 0;
   SearchStatistics statistics_;
 };
+
+/// The graph as it is, as if pruned.
+PrunedGraph unpruned(const SearchGraph& graph) {
+  PrunedGraph out;
+  out.graph = graph;
+  const auto count = [](std::size_t n) {
+    std::vector<std::uint32_t> numbers(n);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    return numbers;
+  };
+  out.nodes = count(graph.node_count());
+  for (const auto& table : graph.tables) out.arcs.push_back(count(table.arcs.size()));
+  out.entries = count(graph.entries.size());
+  out.links = count(graph.links.size());
+  return out;
+}
 
 }  // namespace
 
 Expected<std::unique_ptr<SequenceStream>> RankingSearch::search(const SearchGraph& graph) const {
-  return std::make_unique<Stream>(graph, options_.max_walks);
+  return std::make_unique<Stream>(
+      options_.pruning == Pruning::kNone ? unpruned(graph) : prune(graph), options_);
 }
 
 }  // namespace plat::sequences

@@ -3,6 +3,7 @@
 #include "sequences/forward_search.h"
 #include "sequences/intermediate_graph_search.h"
 #include "sequences/layered_search.h"
+#include "sequences/ranking_search.h"
 
 namespace plat::sequences {
 
@@ -12,6 +13,7 @@ const Registry<AnySequenceSearch>& sequence_searches() {
     all.add<ForwardSearch>();
     all.add<LayeredSearch>();
     all.add<IntermediateGraphSearch>();
+    all.add<RankingSearch>();
     return all;
   }();
   return kMenu;

@@ -207,12 +207,30 @@ TEST(SequenceContract, AcceptsTheOracleAndRefusesItsBrokenTwins) {
 
 // ---- every strategy on the menu ----
 
+/// A strategy that may have to look at too many walks does not look at many here.
+AnySequenceSearch impatient(const std::string& name) {
+  constexpr std::string_view kLimit = "max_walks";
+  const auto& entry = sequence_searches().at(name);
+  const bool is_limited =
+      std::ranges::find(entry.fields, kLimit, &FieldDescription::name) != entry.fields.end();
+  return entry.make(is_limited ? OptionMap{{std::string(kLimit), 5'000.0}} : OptionMap{});
+}
+
 TEST(SequenceContract, HoldsForEveryStrategyOnRandomProblems) {
   const auto& menu = sequence_searches();
+  std::map<std::string, int> gave_up;
+  int cases = 0;
   for_random_cases("contract", iterations(1500), [&](const Case& one) {
-    for (const std::string& name : menu.names())
-      ASSERT_EQ(why_not_in_contract(menu.make(name), one.graph, one.best, one.k), "") << name;
+    ++cases;
+    for (const std::string& name : menu.names()) {
+      const auto wrong = why_not_in_contract(impatient(name), one.graph, one.best, one.k);
+      if (wrong == plat::testing::kGivesUp)
+        ++gave_up[name];
+      else
+        ASSERT_EQ(wrong, "") << name;
+    }
   });
+  for (const auto& [name, count] : gave_up) EXPECT_LT(50 * count, cases) << name;
 }
 
 TEST(SequenceContract, GivesTheSamePathsTwice) {
@@ -222,10 +240,13 @@ TEST(SequenceContract, GivesTheSamePathsTwice) {
       std::vector<std::vector<Step>> runs[2];
       for (auto& steps : runs) {
         const SearchGraph copy = one.graph;
-        const auto stream = menu.make(name).search(copy);
+        const auto stream = impatient(name).search(copy);
         ASSERT_TRUE(stream.has_value());
         const auto paths = find_paths(**stream, one.k);
-        ASSERT_TRUE(paths.has_value());
+        if (!paths) {
+          ASSERT_EQ(paths.error().code, FailureCode::kTooManyStates) << name;
+          continue;
+        }
         for (const auto& path : *paths) steps.push_back(path.steps);
       }
       ASSERT_EQ(runs[0], runs[1]) << name;
@@ -245,7 +266,7 @@ TEST(SequenceContract, StrategiesAgreeOnLargerProblems) {
     const auto best = k_best_paths(graph, 100);
     found += best.empty() ? 0 : 1;
     for (const std::string& name : menu.names()) {
-      const auto stream = menu.make(name).search(graph);
+      const auto stream = impatient(name).search(graph);
       if (!stream && stream.error().code == FailureCode::kTooManyStates) continue;
       const auto paths = stream ? find_paths(**stream, 100) : tl::unexpected(stream.error());
       if (!paths && paths.error().code == FailureCode::kTooManyStates) continue;

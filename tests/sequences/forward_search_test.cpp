@@ -50,7 +50,7 @@ TEST(ForwardSearch, HoldsItsContractUnderEveryDominance) {
     // Without dominance only the limit ends a search in circles.
     const auto none =
         why_not_in_contract(ForwardSearch({Dominance::kNone, 30'000}), graph, best, k);
-    if (none.ends_with("max_states is 30000")) continue;
+    if (none == plat::testing::kGivesUp) continue;
     ++finished;
     ASSERT_EQ(none, "") << i;
   }

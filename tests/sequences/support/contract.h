@@ -4,11 +4,15 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sequences/sequence_search.h"
 
 namespace plat::testing {
+
+/// What `why_not_in_contract` says of a search that was right until it gave up.
+inline constexpr std::string_view kGivesUp = "gives up";
 
 /// What the first `k` paths of a search break of the contract of `SequenceSearch`, in words, or an
 /// empty string. `best`: the oracle's first k, all where there are fewer.
@@ -21,6 +25,7 @@ std::string why_not_in_contract(const Search& search, const sequences::SearchGra
   sequences::SequencePath path{-1, {{7, 7}}};  // what is in it must not matter
   for (std::size_t i = 0; i < k; ++i) {
     const auto more = (*stream)->next(path);
+    if (!more && more.error().code == FailureCode::kTooManyStates) return std::string(kGivesUp);
     if (!more) return fmt::format("path {}: {}", i, more.error().message);
     if (!*more) {
       if (i < best.size()) return fmt::format("ends after {} of {} paths", i, best.size());
