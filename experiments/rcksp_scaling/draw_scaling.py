@@ -27,12 +27,19 @@ def exponent_of(exponents, study, strategy, quantity):
 
 
 def set_scales(axes, values):
-    """Logarithmic, but where zero is one of the values."""
+    """Logarithmic, at least a decade high; where zero is one of the values it has its place to the left."""
     axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    if high < 10 * low:
+        middle = (low * high) ** 0.5
+        axes.set_ylim(middle / 10**0.5, middle * 10**0.5)
     if min(values) > 0 and max(values) / min(values) > 4:
         axes.set_xscale("log")
     elif min(values) == 0 and max(values) > 5:
         axes.set_xscale("symlog", linthresh=min(v for v in values if v > 0))
+        axes.set_xlim(left=-0.02)
+    if len(values) < 5:
+        axes.set_xticks(values, [f"{v:g}" for v in values])
 
 
 def draw_study(axes, rows, exponents, config, study, quantity, styles):

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/rng.h"
+#include "statistics/quantile.h"
 
 namespace plat::rcksp {
 namespace {
@@ -45,13 +46,25 @@ bool is_unfinished(RunStatus status) {
          status == RunStatus::kMemoryLimit || status == RunStatus::kNotTried;
 }
 
+/// The median over the paired rounds so far, else the guarded run's.
+double typical_s(const ContenderResult& contender) {
+  if (contender.rounds.empty()) return contender.guarded.total().wall_s;
+  std::vector<double> values_s;
+  for (const SearchRun& run : contender.rounds) values_s.push_back(run.total().wall_s);
+  std::ranges::sort(values_s);
+  return statistics::sorted_quantile(values_s, 0.5);
+}
+
 std::string line_of(const ScalingConfig& config, const CellResult& cell, const char* phase) {
-  std::string line = fmt::format("{} {} {}:", phase, config.studies[cell.study].name, cell.value);
+  const Study& study = config.studies[cell.study];
+  std::string line = fmt::format("{} {}, {} = {}:", phase, study.name, study.vary, cell.value);
+  const char* separator = " ";
   for (std::size_t i = 0; i < cell.contenders.size(); ++i) {
-    const SearchRun& run = cell.contenders[i].guarded;
-    line += fmt::format(" {} {}", config.strategies[i].label,
-                        run.status == RunStatus::kOk ? fmt::format("{:.4g} s", run.total().wall_s)
-                                                     : std::string(status_name(run.status)));
+    const ContenderResult& contender = cell.contenders[i];
+    line += fmt::format("{}{} {}", separator, config.strategies[i].label,
+                        contender.is_ok() ? fmt::format("{:.4g} s", typical_s(contender))
+                                          : std::string(status_name(contender.guarded.status)));
+    separator = ", ";
   }
   return line;
 }

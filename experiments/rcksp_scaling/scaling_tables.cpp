@@ -90,14 +90,28 @@ std::optional<T> if_ok(const ContenderResult& contender, T value) {
   return contender.is_ok() ? std::optional(value) : std::nullopt;
 }
 
+std::optional<double> median_in(const std::optional<Ratio>& ratio) {
+  return ratio ? std::optional(ratio->median) : std::nullopt;
+}
+std::optional<double> low_in(const std::optional<Ratio>& ratio) {
+  return ratio ? std::optional(ratio->interval.low) : std::nullopt;
+}
+std::optional<double> high_in(const std::optional<Ratio>& ratio) {
+  return ratio ? std::optional(ratio->interval.high) : std::nullopt;
+}
+
 void add_cell(CsvTable& table, const ScalingConfig& config, const CellResult& cell,
               std::size_t index) {
   const ContenderResult& contender = cell.contenders[index];
   const StrategyChoice& choice = config.strategies[index];
   const ContenderResult* reference = reference_of(config, cell);
-  const auto ratio = reference == nullptr ? std::nullopt
-                                          : ratio_to(*reference, contender, config.resamples,
-                                                     derive_seed(config.seed, {index}));
+  const auto ratio = [&](Clock clock) {
+    return reference == nullptr ? std::nullopt
+                                : ratio_to(*reference, contender, clock, config.resamples,
+                                           derive_seed(config.seed, {index}));
+  };
+  const auto wall = ratio(Clock::kWall);
+  const auto processor = ratio(Clock::kProcessor);
   const auto least = least_total_s(contender);
   const SearchRun& run = contender.guarded;
   table.add_row(
@@ -105,9 +119,8 @@ void add_cell(CsvTable& table, const ScalingConfig& config, const CellResult& ce
       to_string(to_option_map(cell.options)), choice.label, choice.name, to_string(choice.options),
       status_name(run.status), contender.rounds.size(), median_of(contender, build_s),
       median_of(contender, search_s), median_of(contender, rest_s), median_of(contender, total_s),
-      least, median_of(contender, cpu_s), ratio ? std::optional(ratio->median) : std::nullopt,
-      ratio ? std::optional(ratio->interval.low) : std::nullopt,
-      ratio ? std::optional(ratio->interval.high) : std::nullopt, if_ok(contender, run.found),
+      least, median_of(contender, cpu_s), median_in(wall), low_in(wall), high_in(wall),
+      median_in(processor), low_in(processor), high_in(processor), if_ok(contender, run.found),
       if_ok(contender, run.first_cost), if_ok(contender, run.statistics.states_created),
       if_ok(contender, run.statistics.states_expanded),
       if_ok(contender, run.statistics.arcs_relaxed), if_ok(contender, run.statistics.states_pruned),
@@ -118,12 +131,13 @@ void add_cell(CsvTable& table, const ScalingConfig& config, const CellResult& ce
 }  // namespace
 
 std::optional<Ratio> ratio_to(const ContenderResult& reference, const ContenderResult& contender,
-                              int resamples, std::uint64_t seed) {
+                              Clock clock, int resamples, std::uint64_t seed) {
+  const auto spent_s = clock == Clock::kWall ? total_s : cpu_s;
   if (!reference.is_ok() || !contender.is_ok()) return std::nullopt;
   const std::size_t shared = std::min(reference.rounds.size(), contender.rounds.size());
   std::vector<double> ratios;
   for (std::size_t i = 0; i < shared; ++i)
-    ratios.push_back(total_s(contender.rounds[i]) / total_s(reference.rounds[i]));
+    ratios.push_back(spent_s(contender.rounds[i]) / spent_s(reference.rounds[i]));
   if (ratios.empty()) return std::nullopt;
   constexpr double kLevel_01 = 0.95;
   Rng rng(seed);
@@ -155,7 +169,8 @@ std::string runs_csv(const ScalingConfig& config, const std::vector<CellResult>&
 std::string cells_csv(const ScalingConfig& config, const std::vector<CellResult>& cells) {
   CsvTable table(
       "study,vary,value,cell,strategy,name,options,status,rounds,build_s,search_s,rest_s,total_s,"
-      "total_min_s,total_cpu_s,ratio,ratio_low,ratio_high,found,cost,states_created,"
+      "total_min_s,total_cpu_s,ratio,ratio_low,ratio_high,cpu_ratio,"
+      "cpu_ratio_low,cpu_ratio_high,found,cost,states_created,"
       "states_expanded,arcs_relaxed,states_pruned,held_mb,peak_mb");
   for (const CellResult& cell : cells)
     for (std::size_t i = 0; i < cell.contenders.size(); ++i) add_cell(table, config, cell, i);

@@ -32,9 +32,13 @@ struct Ratio {
   statistics::Interval interval;
 };
 
-/// The ratio of total wall times round by round, over the rounds that both have; rounds are
-/// resampled for the interval (95 %, percentiles of the median). Nothing where one did not finish.
+/// The time on the clock, or what the processors spent: the steadier on a machine that does other
+/// things too, and the same for strategies of one thread.
+enum class Clock : std::uint8_t { kWall, kProcessor };
+
+/// The ratio of total times round by round, over the rounds that both have; rounds are resampled
+/// for the interval (95 %, percentiles of the median). Nothing where one did not finish.
 std::optional<Ratio> ratio_to(const ContenderResult& reference, const ContenderResult& contender,
-                              int resamples, std::uint64_t seed);
+                              Clock clock, int resamples, std::uint64_t seed);
 
 }  // namespace plat::rcksp

@@ -119,14 +119,15 @@ ContenderResult taking(std::initializer_list<double> seconds) {
 }
 
 TEST(RckspScaling, ComparesRoundByRound) {
-  const auto ratio = ratio_to(taking({1.0, 2.0, 4.0}), taking({3.0, 6.0, 12.0, 99.0}), 100, 1);
+  const auto ratio =
+      ratio_to(taking({1.0, 2.0, 4.0}), taking({3.0, 6.0, 12.0, 99.0}), Clock::kWall, 100, 1);
   ASSERT_TRUE(ratio);
   EXPECT_DOUBLE_EQ(ratio->median, 3.0);
   EXPECT_DOUBLE_EQ(ratio->interval.low, 3.0);
   EXPECT_DOUBLE_EQ(ratio->interval.high, 3.0);
   ContenderResult unfinished;
   unfinished.guarded.status = RunStatus::kTimeLimit;
-  EXPECT_FALSE(ratio_to(taking({1.0}), unfinished, 100, 1));
+  EXPECT_FALSE(ratio_to(taking({1.0}), unfinished, Clock::kWall, 100, 1));
 }
 
 TEST(ScalingConfig, RefusesWhatMakesNoSense) {
