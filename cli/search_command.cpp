@@ -7,6 +7,7 @@
 #include "command.h"
 #include "core/options.h"
 #include "core/progress.h"
+#include "graph_output.h"
 #include "sequence_output.h"
 #include "sequences/problem_file.h"
 
@@ -27,6 +28,7 @@ struct Arguments {
   std::size_t k = 1;
   bool as_json = false;
   std::string out;
+  std::string graph;
 };
 
 /// More sequences than this are long work.
@@ -134,6 +136,7 @@ ExitStatus run(const Arguments& args) {
   const sequences::ReadProblem read = sequences::read_problem(args.problem);
   const SequenceProblem& problem = read.problem;
   const CompiledProblem compiled = compile_named(problem, args.problem);
+  if (!args.graph.empty()) write_graph(compiled, problem, args.graph);
   LineOutput out(args.out);
   if (!args.as_json)
     for (const std::string& note : read.notes) out.line(args.problem + ": " + note);
@@ -169,6 +172,9 @@ void add_search_command(CLI::App& app, Action& action) {
   command->add_flag("--json", args->as_json,
                     "a JSON object per line: each sequence as it is found, then a summary");
   command->add_option("--out", args->out, "file to write to, instead of standard output");
+  command->add_option(
+      "--graph", args->graph,
+      "JSON file for the intermediate graph of a small problem, dead ends included");
   command->footer(
       "Example:\n  plat search docs/examples/street.json --k 3\n"
       "  plat search docs/examples/playlist.json --method layered --k 1000 --json --out "

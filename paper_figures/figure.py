@@ -75,6 +75,18 @@ class Figure:
             raise FigureError(f"plat {words[0]}: {said or f'status {result.returncode}'}")
         return result.stdout
 
+    def program(self, name, *arguments):
+        """Runs a program of an experiment, which lies beside plat. Its status 1 is for the caller's claims to tell."""
+        words = [str(a) for a in arguments]
+        program = pathlib.Path(_binary()).parent / name
+        if not program.exists():
+            raise FigureError(f"{name} is not beside plat; build it")
+        result = subprocess.run([str(program), *words], capture_output=True, text=True, check=False)
+        self.commands.append(f"{name} " + " ".join(w.replace(str(self.work) + "/", "") for w in words))
+        if result.returncode not in (0, 1):
+            raise FigureError(f"{name}: {result.stderr.strip() or f'status {result.returncode}'}")
+        return result.stdout
+
     def dataset(self, name):
         """The catalogue's entry, remembered for the attribution."""
         if name not in self.sources:
