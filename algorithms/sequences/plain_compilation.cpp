@@ -3,6 +3,7 @@
 
 #include "core/failure.h"
 #include "sequences/adjacency.h"
+#include "sequences/compiled_check.h"
 #include "sequences/compiled_problem.h"
 #include "sequences/structure_check.h"
 #include "sequences/unrolling.h"
@@ -86,7 +87,7 @@ CompiledProblem compile(const SequenceProblem& problem) {
   compiled.is_walked_backwards.assign(1, problem.structure.segments.front().is_reversed);
   graph.zones.push_back(std::move(zone));
   compiled.zone_segments = {0};
-  validate(graph);
+  validate(compiled, database);
   return compiled;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/failure.h"
 #include "sequences/adjacency.h"
+#include "sequences/compiled_check.h"
 #include "sequences/contexts.h"
 #include "sequences/structure_check.h"
 #include "sequences/structure_decomposition.h"
@@ -103,7 +104,7 @@ class Unrolling {
     }
     for (const Tail& tail : tails_) graph_.exits.push_back({tail.node, 0});
     sort_links();
-    validate(graph_);
+    validate(compiled_, database_);
     return std::move(compiled_);
   }
 

@@ -25,6 +25,6 @@ namespace plat::sequences {
 /// Paper:      [Har, Sec. 3.3.4, Fig. 3.4, 3.5]
 /// Deviation:  contexts also tell cycles that share key points apart (ADR 0023)
 CompiledProblem unroll(const SequenceProblem& problem);
-inline constexpr double kMostUnrolledLinks = 2e7;
+inline constexpr double kMostUnrolledLinks = 1e7;
 
 }  // namespace plat::sequences

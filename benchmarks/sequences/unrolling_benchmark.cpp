@@ -47,38 +47,44 @@ std::vector<ElementIndex> element_class(ElementIndex index) {
   return elements;
 }
 
-/// A loop of four corners (0-3), a T (4) on its last side, whose stem leads to a T (5) with two
-/// ends (6, 7).
-SequenceProblem loop_with_nested_ts(bool has_balconies) {
+/// A loop of four corners and a T, from whose stem a binary tree of T hangs.
+struct LoopWithTree {
   SequenceProblem problem{database(), {}, {}};
-  const auto corner = element_class(0);
-  const auto branching = element_class(1);
-  const auto end = element_class(2);
-  for (const auto& allowed : {corner, corner, corner, corner, branching, branching, end, end})
-    problem.structure.key_points.push_back({"", allowed});
-  const auto join = [&](std::uint32_t from, Port at_from, std::uint32_t to, Port at_to) {
+  bool has_balconies;
+
+  std::uint32_t add_key_point(std::uint32_t class_index) {
+    problem.structure.key_points.push_back({"", element_class(class_index)});
+    return static_cast<std::uint32_t>(problem.structure.key_points.size()) - 1;
+  }
+  void join(std::uint32_t from, Port at_from, std::uint32_t to) {
     Segment segment;
     segment.from = from;
     segment.from_port = at_from;
     segment.to = to;
-    segment.to_port = at_to;
     segment.bounds = {{kSegmentLength, kSegmentLength}};
     if (has_balconies) segment.bounds.push_back({3, 3});
     problem.structure.segments.push_back(segment);
-  };
-  join(0, Port::kRight, 1, Port::kLeft);
-  join(1, Port::kRight, 2, Port::kLeft);
-  join(2, Port::kRight, 3, Port::kLeft);
-  join(3, Port::kRight, 4, Port::kLeft);
-  join(4, Port::kRight, 0, Port::kLeft);
-  join(4, Port::kStem, 5, Port::kStem);
-  join(5, Port::kRight, 6, Port::kLeft);
-  join(7, Port::kRight, 5, Port::kLeft);
-  return problem;
+  }
+  /// `depth` T one behind the other, and ends.
+  void hang_tree(std::uint32_t from, Port at_from, std::int64_t depth) {
+    const std::uint32_t to = add_key_point(depth > 0 ? 1 : 2);
+    join(from, at_from, to);
+    if (depth == 0) return;
+    hang_tree(to, Port::kRight, depth - 1);
+    hang_tree(to, Port::kStem, depth - 1);
+  }
+};
+
+SequenceProblem loop_with_nested_ts(std::int64_t depth, bool has_balconies) {
+  LoopWithTree made{.has_balconies = has_balconies};
+  for (const std::uint32_t class_index : {0U, 0U, 0U, 0U, 1U}) made.add_key_point(class_index);
+  for (std::uint32_t k = 0; k < 5; ++k) made.join(k, Port::kRight, (k + 1) % 5);
+  made.hang_tree(4, Port::kStem, depth);
+  return std::move(made.problem);
 }
 
 void compile_structure(benchmark::State& state) {
-  const auto problem = loop_with_nested_ts(state.range(0) != 0);
+  const auto problem = loop_with_nested_ts(state.range(0), state.range(1) != 0);
   for (auto _ : state) {
     const auto compiled = compile(problem);
     const SearchGraph& graph = compiled.graph;
@@ -93,10 +99,10 @@ void compile_structure(benchmark::State& state) {
     state.counters["MB"] = static_cast<double>(bytes) / 1e6;
   }
 }
-BENCHMARK(compile_structure)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(compile_structure)->ArgsProduct({{1, 2}, {0, 1}})->Unit(benchmark::kMillisecond);
 
 void find_best_arrangement(benchmark::State& state) {
-  const auto problem = loop_with_nested_ts(state.range(0) != 0);
+  const auto problem = loop_with_nested_ts(state.range(0), state.range(1) != 0);
   const auto strategy = sequence_searches().make("layered");
   for (auto _ : state) {
     const auto compiled = compile(problem);
@@ -109,7 +115,7 @@ void find_best_arrangement(benchmark::State& state) {
     state.counters["MB"] = static_cast<double>((*stream)->statistics().bytes_held) / 1e6;
   }
 }
-BENCHMARK(find_best_arrangement)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(find_best_arrangement)->ArgsProduct({{1, 2}, {0, 1}})->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace plat::sequences

@@ -93,6 +93,14 @@ class Search(CliTest):
         self.assertEqual(best["segments"]["west"][0], "left gable")
         self.assertEqual(best["consumed_by_segment"]["north"]["length_m"], 13.2)
 
+    def test_a_closed_courtyard_keeps_the_bounds_of_every_side(self):
+        result = plat("search", ROOT / "docs" / "examples" / "courtyard.json", "--json")
+        best = lines(result.stdout)[0]
+        self.assertEqual(best["cost"], 24)
+        self.assertEqual(len(best["key_points"]), 6)
+        self.assertEqual(best["segments"]["south"].count("balcony"), 3)
+        self.assertEqual(best["consumed_by_segment"]["east"]["length_m"], 18)
+
     def test_bad_input_is_one_line_with_what_is_allowed(self):
         good = self.problem()
         for arguments, words in [

@@ -83,6 +83,22 @@ TEST(StructureCheck, RefusesTwoSegmentsAtOnePort) {
   EXPECT_EQ(refusal(problem), "key point 1 (gate): two segments at one port");
 }
 
+TEST(StructureCheck, NamesTheElementsOfACircleThatCostsAndConsumesNothing) {
+  SequenceProblem problem = chain();
+  problem.database.elements.insert(problem.database.elements.begin(),
+                                   Element{.name = "corner", .uses = {1}, .is_filling = false});
+  for (auto& transition : problem.database.transitions) {
+    ++transition.from;
+    ++transition.to;
+    transition.cost = 0;
+  }
+  EXPECT_EQ(refusal(problem), "");
+  problem.bounds = {};
+  const std::string why = refusal(problem);
+  EXPECT_NE(why.find("in a circle"), std::string::npos) << why;
+  EXPECT_NE(why.find("; elements: a, b"), std::string::npos) << why;
+}
+
 TEST(StructureCheck, TellsAPlainSequence) {
   EXPECT_TRUE(is_plain(plain_sequence({}, {}).structure));
   EXPECT_FALSE(is_plain(chain().structure));
