@@ -10,14 +10,15 @@
 
 namespace plat::sequences {
 
-/// Dynamic programming over layers of consumed vectors: exact costs-to-go of all states, then the
-/// paths read off them.
+/// Dynamic programming over layers of consumed vectors: exact costs-to-go in one table, then the
+/// paths read off them. Where the table would be too large, the states that the paths need are
+/// grown in its place.
 ///
 /// Guarantees: 1. paths come by cost, and those of equal costs lexicographically by their steps;
-/// 2. the memory for k paths does not grow with k;
+/// 2. beside the costs-to-go, memory does not grow with the number of paths;
 /// 3. the same on every instruction set.
 /// @throws        InputError for `instructions` that the processor lacks
-/// @returns       Failure kTooManyStates where the table needs more than `max_memory_mb`
+/// @returns       Failure kTooManyStates where the costs-to-go need more than `max_memory_mb`
 /// Complexity:    O(layers x arcs) for all costs-to-go
 /// Deviation:     no strategy of the paper; [Har, Sec. 3.3] grows the graph that is tabulated here
 ///                (ADR 0018)
@@ -26,12 +27,20 @@ class LayeredSearch {
   static constexpr std::string_view kName = "layered";
   static constexpr std::string_view kSummary =
       "exact dynamic programming over layers of consumed resources, all costs-to-go in one table";
+  enum class Layers { kAuto, kDense, kSparse };
   struct Options {
+    Layers layers = Layers::kAuto;                        ///< what holds the costs-to-go
     InstructionSet instructions = InstructionSet::kAuto;  ///< the results do not depend on it
-    double max_memory_mb = 4096.0;                        ///< of the table of costs-to-go
+    double max_memory_mb = 4096.0;                        ///< of the costs-to-go
     int batch_paths = 262144;                             ///< collected at a time
     static constexpr auto fields() {
       return std::tuple{
+          EnumField<Options, Layers, 3>{
+              "layers",
+              &Options::layers,
+              {{"auto", Layers::kAuto}, {"dense", Layers::kDense}, {"sparse", Layers::kSparse}},
+              "dense: a table of all consumed vectors; sparse: states grown as far as the paths "
+              "asked for need them; auto: sparse where the table is too large or slow"},
           EnumField<Options, InstructionSet, 4>{
               "instructions",
               &Options::instructions,
@@ -41,7 +50,7 @@ class LayeredSearch {
                {"avx512", InstructionSet::kAvx512}},
               "vector instructions of the kernels; auto takes the best that the processor has"},
           Field{"max_memory_mb", &Options::max_memory_mb, 0.001, 1e6,
-                "memory limit of the table of costs-to-go, MB"},
+                "memory limit of the costs-to-go, MB"},
           Field{"batch_paths", &Options::batch_paths, 1, 1 << 24,
                 "how many of the k best paths are collected at a time; bounds the memory"},
       };

@@ -16,14 +16,22 @@ constexpr std::size_t kTolerance = 8;
 
 }  // namespace
 
-PathEnumeration::PathEnumeration(const CompletionSpace& space, Limits limits)
+PathEnumeration::PathEnumeration(const CompletionSpace& space, Limits limits,
+                                 std::optional<Cost> above)
     : space_(space), limits_(limits) {
   expects(limits_.batch_paths > 0, "a batch holds a path");
   const auto best = space_.best_cost();
   if (!best) return;
   best_ = *best;
-  mode_ = Mode::kTies;
-  begin_pass(best_);
+  if (!above || *above < best_) {
+    mode_ = Mode::kTies;
+    begin_pass(best_);
+    return;
+  }
+  // Only what it cuts matters of this pass.
+  mode_ = Mode::kBatch;
+  begin_pass(*above);
+  while (advance()) continue;
 }
 
 std::uint64_t PathEnumeration::bytes_held() const {

@@ -56,7 +56,9 @@ class PathEnumeration {
     std::size_t batch_paths = 1U << 18U;   ///< collected in one pass
     std::size_t list_entries = 1U << 21U;  ///< continuations that are remembered
   };
-  PathEnumeration(const CompletionSpace& space, Limits limits);
+  /// @param above  leaves out the paths that cost no more than this
+  PathEnumeration(const CompletionSpace& space, Limits limits,
+                  std::optional<Cost> above = std::nullopt);
   /// Writes the next path, or returns false.
   bool next(SequencePath& path);
   /// How many steps the depth-first passes have taken so far.

@@ -51,14 +51,16 @@ TEST(LayeredSearch, GivesPathsByCostThenStepsWhateverTheBatch) {
           is_plain ? compile(random_plain_problem(rng)).graph : random_search_graph(rng);
       const auto all = enumerate_paths(graph, 200);
       if (!all) continue;
-      const auto paths =
-          first_paths(graph, 200, {.batch_paths = kBatches[static_cast<std::size_t>(i) % 5]});
-      ASSERT_EQ(paths.size(), all->paths.size()) << i;
-      for (std::size_t p = 0; p < paths.size(); ++p) {
-        ASSERT_EQ(paths[p].cost, all->paths[p].cost) << i << ", path " << p;
-        ASSERT_EQ(paths[p].steps, all->paths[p].steps) << i << ", path " << p;
+      const int batch = kBatches[static_cast<std::size_t>(i) % 5];
+      for (const auto layers : {LayeredSearch::Layers::kDense, LayeredSearch::Layers::kSparse}) {
+        const auto paths = first_paths(graph, 200, {.layers = layers, .batch_paths = batch});
+        ASSERT_EQ(paths.size(), all->paths.size()) << i;
+        for (std::size_t p = 0; p < paths.size(); ++p) {
+          ASSERT_EQ(paths[p].cost, all->paths[p].cost) << i << ", path " << p;
+          ASSERT_EQ(paths[p].steps, all->paths[p].steps) << i << ", path " << p;
+        }
+        compared += paths.size() > 1 ? 1 : 0;
       }
-      compared += paths.size() > 1 ? 1 : 0;
     }
   }
   EXPECT_GT(compared, iterations(200));
@@ -160,11 +162,72 @@ TEST(LayeredSearch, AgreesWithTheOracleOnLongSequencesOnAllInstructionSets) {
   EXPECT_GT(feasible, iterations(50));
 }
 
-TEST(LayeredSearch, FailsWhereTheTableExceedsItsMemory) {
+TEST(LayeredSearch, GoesOnWithATableWhereTooManyStatesGrow) {
+  Rng rng = property_rng("layered.change");
+  SequenceDatabase database;
+  database.resources = {{"length", 1.0}};
+  for (std::uint32_t e = 0; e < 40; ++e)
+    database.elements.push_back(
+        {.name = std::to_string(e), .uses = {static_cast<Amount>(1 + rng.index(3))}});
+  for (std::uint32_t from = 0; from < 40; ++from)
+    for (std::uint32_t to = 0; to < 40; ++to)
+      database.transitions.push_back(
+          {.from = from, .to = to, .cost = static_cast<Cost>(10 + rng.index(100))});
+  const auto graph = compile(plain_sequence(std::move(database), {{5, 100}})).graph;
+  constexpr std::size_t kPaths = 20000;
+  const auto stream = LayeredSearch({}).search(graph);
+  ASSERT_TRUE(stream.has_value());
+  const auto some = find_paths(**stream, 1);
+  ASSERT_TRUE(some.has_value());
+  const std::uint64_t grown = (*stream)->statistics().states_created;
+  const auto rest = find_paths(**stream, kPaths - 1);
+  ASSERT_TRUE(rest.has_value());
+  EXPECT_LT(grown, 1000U);
+  EXPECT_GT((*stream)->statistics().states_created, 3000U);
+  const auto expected = first_paths(graph, kPaths, {.layers = LayeredSearch::Layers::kDense});
+  ASSERT_EQ(rest->size() + 1, expected.size());
+  EXPECT_EQ(some->front().steps, expected.front().steps);
+  for (std::size_t p = 1; p < kPaths; ++p)
+    ASSERT_EQ((*rest)[p - 1].steps, expected[p].steps) << "path " << p;
+}
+
+TEST(LayeredSearch, GrowsStatesWhereNoTableFits) {
+  const SearchGraph graph = [] {
+    SearchGraph many = uniform_graph(4, 6, 1);
+    many.dimension_count = 8;  // 1001^7 vectors
+    std::vector<Amount> uses;
+    for (std::uint32_t node = 0; node < 4; ++node) {
+      uses.push_back(1);
+      for (std::uint32_t d = 1; d < 8; ++d) uses.push_back(d == node + 1 ? 100 : 1);
+    }
+    many.node_uses = uses;
+    many.zones[0].bounds.resize(8, {0, 1000});
+    many.zones[0].resets.resize(8, false);
+    return many;
+  }();
+  const auto all = enumerate_paths(graph, 5000, 10'000'000);
+  ASSERT_TRUE(all.has_value());
+  const auto paths = first_paths(graph, 5000);
+  ASSERT_EQ(paths.size(), 4096U);
+  ASSERT_EQ(paths.size(), all->paths.size());
+  for (std::size_t p = 0; p < paths.size(); ++p) ASSERT_EQ(paths[p].steps, all->paths[p].steps);
+  EXPECT_FALSE(LayeredSearch({.layers = LayeredSearch::Layers::kDense}).search(graph).has_value());
+}
+
+TEST(LayeredSearch, FailsWhereTheMemoryIsExceeded) {
   const SearchGraph graph = uniform_graph(10, 1000, 1);
+  const auto dense =
+      LayeredSearch({.layers = LayeredSearch::Layers::kDense, .max_memory_mb = 0.01}).search(graph);
+  ASSERT_FALSE(dense.has_value());
+  EXPECT_EQ(dense.error().code, FailureCode::kTooManyStates);
   const auto stream = LayeredSearch({.max_memory_mb = 0.01}).search(graph);
-  ASSERT_FALSE(stream.has_value());
-  EXPECT_EQ(stream.error().code, FailureCode::kTooManyStates);
+  ASSERT_TRUE(stream.has_value());
+  SequencePath path;
+  for (int again = 0; again < 2; ++again) {
+    const auto sparse = (*stream)->next(path);
+    ASSERT_FALSE(sparse.has_value());
+    EXPECT_EQ(sparse.error().code, FailureCode::kTooManyStates);
+  }
 }
 
 }  // namespace
