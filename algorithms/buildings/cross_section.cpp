@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "blocks/geos_internal.h"
+#include "buildings/ring_chaining_internal.h"
 #include "core/failure.h"
 #include "core/working_grid.h"
 
 namespace plat::buildings {
 namespace {
 
-using DirectedEdge = std::pair<Point, Point>;
+using detail::DirectedEdge;
 
 /// A vertex nearer to the line between its neighbours is taken off before the section is put on the
 /// grid: meshes have vertices along straight edges, and the grid would bend the edges there. Above
@@ -62,48 +63,6 @@ void start_at_lowest(Ring& ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
 }
 
-/// Of the edges that leave a vertex, the one that bounds the same corner of the inside as the edge
-/// that comes in: the leftmost turn, so that regions which touch in a point stay apart.
-std::size_t leftmost(Point from, Point at, const std::vector<Point>& candidates) {
-  const Point in = at - from;
-  const auto turn = [&](Point to) {
-    const Point out = to - at;
-    return std::atan2(cross(in, out), dot(in, out));
-  };
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    if (turn(candidates[i]) > turn(candidates[best])) best = i;
-  }
-  return best;
-}
-
-/// Chains directed edges with the inside on their left into closed rings; nullopt where one does
-/// not close.
-std::optional<std::vector<Ring>> chain(const std::vector<DirectedEdge>& edges) {
-  std::map<Point, std::vector<Point>> next;
-  for (const auto& [from, to] : edges) next[from].push_back(to);
-  std::vector<Ring> rings;
-  for (auto& [start, candidates] : next) {
-    while (!candidates.empty()) {
-      Ring ring{start};
-      Point from = start;
-      Point at = candidates.back();
-      candidates.pop_back();
-      while (at != start) {
-        ring.push_back(at);
-        const auto found = next.find(at);
-        if (found == next.end() || found->second.empty()) return std::nullopt;
-        const std::size_t pick = leftmost(from, at, found->second);
-        from = at;
-        at = found->second[pick];
-        found->second.erase(found->second.begin() + static_cast<std::ptrdiff_t>(pick));
-      }
-      rings.push_back(std::move(ring));
-    }
-  }
-  return rings;
-}
-
 CrossSection canonical(std::vector<Polygon> regions) {
   for (Polygon& region : regions) {
     start_at_lowest(region.outer);
@@ -112,32 +71,6 @@ CrossSection canonical(std::vector<Polygon> regions) {
   }
   std::ranges::sort(regions, {}, &Polygon::outer);
   return {std::move(regions)};
-}
-
-/// Counter-clockwise rings are regions, clockwise ones holes of the region around them.
-CrossSection from_rings(const std::vector<Ring>& rings, const PlanePoints& points) {
-  std::vector<Polygon> regions;
-  std::vector<Ring> holes;
-  for (const Ring& keys : rings) {
-    Ring ring = points.ring(keys);
-    if (ring.size() < 3) continue;
-    if (signed_area_m2(ring) > 0.0) {
-      regions.push_back({std::move(ring), {}});
-    } else {
-      holes.push_back(std::move(ring));
-    }
-  }
-  for (Ring& hole : holes) {
-    const Point inside = interior_point(Polygon{Ring(hole.rbegin(), hole.rend()), {}});
-    Polygon* around = nullptr;
-    for (Polygon& region : regions) {
-      if (locate(region.outer, inside) == Side::kInside &&
-          (around == nullptr || signed_area_m2(region.outer) < signed_area_m2(around->outer)))
-        around = &region;
-    }
-    if (around != nullptr) around->holes.push_back(std::move(hole));
-  }
-  return canonical(std::move(regions));
 }
 
 /// Edges of the inside's border, each with its reverse cancelled, put into sections.
@@ -157,9 +90,10 @@ std::optional<CrossSection> section_from(const std::vector<DirectedEdge>& edges,
   for (const auto& [edge, count] : surplus) {
     for (int i = 0; i < count; ++i) border.push_back(edge);
   }
-  const std::optional<std::vector<Ring>> rings = chain(border);
+  std::optional<std::vector<Ring>> rings = detail::chain_rings(border);
   if (!rings) return std::nullopt;
-  return from_rings(*rings, points);
+  for (Ring& ring : *rings) ring = points.ring(ring);
+  return canonical(detail::regions_of(std::move(*rings)));
 }
 
 blocks::detail::GeosShape shape_of(const blocks::detail::Geos& geos, const CrossSection& section) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buildings/face_merging.h"
 #include "buildings/row_builder_internal.h"
 
 namespace plat::buildings::detail {
@@ -270,7 +271,9 @@ Part RowPart::finish(std::string name, const PartShape& shape) const {
   }
   add_piece(details_);
   drop_unused_materials(mesh);
-  for (Point3& p : mesh.vertices) p = as_stored(bent(p));
+  for (Point3& p : mesh.vertices) p = bent(p);
+  mesh = merge_faces(mesh);
+  for (Point3& p : mesh.vertices) p = as_stored(p);
   std::map<std::string, double> attributes = attributes_;
   attributes["height_m"] = family_.top_m();
   return make_part(std::move(name), shape, std::move(mesh), std::move(attributes));
