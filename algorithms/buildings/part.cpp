@@ -97,6 +97,17 @@ bool cut_ports(Part& part) {
   return has_caps;
 }
 
+/// Names become file names.
+void expect_good_name(const std::string& name) {
+  const bool is_good = !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  });
+  if (!is_good || name.front() == '.')
+    throw InputError(fmt::format(
+        "part \"{}\": names are letters, digits, \"_\", \"-\" and \".\", not in front", name));
+}
+
 void expect_good_shape(const std::string& name, const PartShape& shape) {
   const bool has_left = shape.part_class == PartClass::kRightEnd ||
                         shape.part_class == PartClass::kCorner ||
@@ -166,14 +177,22 @@ void scale_along_axis(Part& part, double quantum_m) {
 
 Part make_part(std::string name, const PartShape& shape, Mesh mesh,
                std::map<std::string, double> attributes) {
+  expect_good_name(name);
   expect_good_shape(name, shape);
   Part part{std::move(name), shape, std::move(mesh), ports_of(shape), std::move(attributes)};
   const std::optional<MeshDefect> defect = find_defect(part.mesh);
+  if (!defect || defect->kind != MeshDefectKind::kBadIndex) drop_unused_materials(part.mesh);
   const bool is_open = defect && defect->kind == MeshDefectKind::kOpen;
   if (defect && !is_open)
     throw InputError(
         fmt::format("part {}: the mesh does not bound a solid: {}", part.name, defect->message));
-  if (cut_ports(part) && is_open)
+  const bool has_caps = cut_ports(part);
+  if (!has_caps && !is_open)
+    throw InputError(
+        fmt::format("part {}: the mesh is closed, but has no face in a port's plane; "
+                    "it may reach beyond it",
+                    part.name));
+  if (has_caps && is_open)
     throw InputError(fmt::format("part {}: the mesh is open, and not at a port: {}", part.name,
                                  defect->message));
   set_lengths(part);

@@ -61,7 +61,9 @@ PartDatabase::PartDatabase(DatabaseInfo info, std::vector<Part> parts)
 PartDatabase::PartDatabase(DatabaseInfo info, std::vector<Part> parts, TransitionTable table)
     : info_(std::move(info)), parts_(std::move(parts)), table_(std::move(table)) {
   index_sections();
-  expects(table_.section_count() == sections_.size(), "a table of these parts' sections");
+  if (table_.section_count() != sections_.size())
+    throw InputError(fmt::format("part database {}: the table is of {} sections, the parts have {}",
+                                 info_.name, table_.section_count(), sections_.size()));
 }
 
 void PartDatabase::index_sections() {

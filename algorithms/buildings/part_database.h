@@ -69,7 +69,8 @@ class PartDatabase {
   /// Parts that are off the quantum are quantised; what was done is in scalings().
   /// @throws InputError where two parts have one name, or there are none
   PartDatabase(DatabaseInfo info, std::vector<Part> parts);
-  /// With a table that was stored; it must have been made of these parts.
+  /// With a table that was stored.
+  /// @throws InputError where it is of another number of sections
   PartDatabase(DatabaseInfo info, std::vector<Part> parts, TransitionTable table);
 
   [[nodiscard]] const DatabaseInfo& info() const { return info_; }

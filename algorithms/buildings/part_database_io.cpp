@@ -238,9 +238,11 @@ void name_materials(Mesh& mesh, const std::vector<Material>& names) {
 
 Part read_part(const ordered_json& json, const fs::path& folder, const std::string& place,
                const std::vector<Material>& materials, Checksum& checksum) {
-  Object object(json, place);
+  const bool has_name = json.is_object() && json.contains("name") && json["name"].is_string();
+  const std::string where =
+      has_name ? fmt::format("{} ({})", place, json["name"].get<std::string>()) : place;
+  Object object(json, where);
   auto name = object.get<std::string>("name");
-  const std::string where = fmt::format("{} ({})", place, name);
   const PartShape shape = read_shape(object, where);
   const fs::path file = folder / object.get<std::string>("mesh");
   auto attributes = object.find<std::map<std::string, double>>("attributes")
@@ -359,8 +361,12 @@ PartDatabase read_part_database(const fs::path& folder) {
                               checksum));
   const fs::path transitions = folder / kTransitionsFile;
   if (!fs::exists(transitions)) return PartDatabase(std::move(info), std::move(parts));
-  return PartDatabase(std::move(info), std::move(parts),
-                      read_transitions(transitions, checksum.text()));
+  TransitionTable table = read_transitions(transitions, checksum.text());
+  try {
+    return PartDatabase(std::move(info), std::move(parts), std::move(table));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", transitions.string(), error.what()));
+  }
 }
 
 void write_part_database(const PartDatabase& database, const fs::path& folder,

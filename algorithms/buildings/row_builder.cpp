@@ -253,6 +253,7 @@ Part RowPart::finish(std::string name, const PartShape& shape) const {
   for (const Body& body : bodies_) {
     CellSolid solid = body.solid;
     const RoofForm& roof = body.roof;
+    if (angle_rad_ != 0.0) solid.add_x(0.0);  // the mitre
     if (roof.slope > 0.0) {
       // Twice: what one diagonal asks for, the other one must have.
       for (int i = 0; i < 2; ++i) {
@@ -270,7 +271,6 @@ Part RowPart::finish(std::string name, const PartShape& shape) const {
     }));
   }
   add_piece(details_);
-  drop_unused_materials(mesh);
   for (Point3& p : mesh.vertices) p = bent(p);
   mesh = merge_faces(mesh);
   for (Point3& p : mesh.vertices) p = as_stored(p);

@@ -74,7 +74,6 @@ class FloorPart {
     mesh.materials.assign(kMaterials.begin(), kMaterials.end());
     add_loft(mesh, rings_, bands_, kSlab);
     append(mesh, details_);
-    drop_unused_materials(mesh);
     for (Point3& p : mesh.vertices) p = as_stored(p);
     attributes["floor_area_m2"] =
         std::round(area_m2_ / kFloorAreaQuantum_m2) * kFloorAreaQuantum_m2;
