@@ -30,10 +30,13 @@ void add_window(RowPart& part, const Wall& wall, const Bay& bay, double width_m,
   add_box(mesh, wall.box(s0 - 0.3, s1 + 0.3, n - 0.05, n + 0.18, z0 - 0.2, z0), kTrim);
   add_box(mesh, wall.box(s0 - 0.3, s1 + 0.3, n - 0.05, n + 0.14, z1, z1 + 0.25), kTrim);
   if (has_pediment) {
-    const double half = 0.5 * width_m + 0.42;
+    // Between the places along the wall, so that a pediment near a mitre is as wide as its window.
+    const Point3 left = wall.at(bay.centre_m - 0.5 * width_m - 0.42, n + 0.28, z1 + 0.25);
+    const Point3 right = wall.at(bay.centre_m + 0.5 * width_m + 0.42, n + 0.28, z1 + 0.25);
+    const double half = 0.5 * length(right - left);
     const std::array<Point, 3> gable{Point{-half, 0.0}, Point{half, 0.0}, Point{0.0, 0.55}};
-    add_lying_prism(mesh, gable, wall.at(bay.centre_m, n + 0.28, z1 + 0.25),
-                    wall.at(bay.centre_m, n - 0.05, z1 + 0.25), wall.across(), kTrim);
+    const Point3 front = 0.5 * (left + right);
+    add_lying_prism(mesh, gable, front, front - 0.33 * wall.outward(), wall.across(), kTrim);
   }
   part.count("windows");
 }

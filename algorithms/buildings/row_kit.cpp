@@ -11,6 +11,9 @@ namespace {
 /// Straight axis left between a mitre and its port, so that the port is cut through walls that run
 /// along the axis.
 constexpr double kMitreMargin_m = 0.1;
+/// Side of the pier at the outer corner of an arcade; along the axis it takes half, as the mitre
+/// stretches it.
+constexpr double kCornerPier_m = 0.7;
 /// Transition parts of two families.
 constexpr double kTransitionLength_m = 3.6;
 /// How far the lower body of a transition part reaches into the higher one.
@@ -77,6 +80,13 @@ Part make_corner(const RowStyle& style, const RowFamily& family, double angle_ra
   for (const bool is_front : {true, false}) {
     for (const bool is_left_arm : {true, false})
       part.dress(arm_wall(family, is_front, is_left_arm, arm_m, zone_m, angle_rad), {});
+  }
+  if (family.arcade_m > 0.0 && angle_rad > 0.0) {
+    // A pier where two arcades meet.
+    const double front = -family.half_depth_m();
+    part.solid().fill({{-0.5 * kCornerPier_m, front, family.plinth_m},
+                       {0.5 * kCornerPier_m, front + kCornerPier_m, family.floor_m(1)}},
+                      kGroundWall);
   }
   const double angle_deg = angle_rad * 180.0 / std::numbers::pi;
   return part.finish(fmt::format("{}_corner_{}{}", family.name, angle_deg > 0 ? "left" : "right",
