@@ -125,9 +125,12 @@ void IntermediateGraphGrowth::expand_forward(std::uint32_t group, Reach reach) {
   const ZoneArcs* arcs = arcs_.of_zone(zone);
   flags_[group] |= kExpandedForward;
   forget_targets(arcs);
-  std::vector<std::uint64_t> done((graph_.zones[zone].size + 63) / 64, 0);
-  for (auto fresh = take_fresh(states_.of_group(states_.forward, group), done); !fresh.empty();
-       fresh = take_fresh(states_.of_group(states_.forward, group), done)) {
+  auto take = [&, done = std::vector<std::uint64_t>((graph_.zones[zone].size + 63) / 64, 0)](
+                  std::vector<std::uint64_t>& fresh) mutable {
+    fresh = take_fresh(states_.of_group(reached(reach), group), done);
+    return !fresh.empty();
+  };
+  for (std::vector<std::uint64_t> fresh; take(fresh);) {
     if (arcs != nullptr) follow_arcs(group, *arcs, fresh, reach);
     for_each_bit(fresh, [&](std::uint32_t tail) {
       follow_links(group, tail, reach);
@@ -170,8 +173,8 @@ void IntermediateGraphGrowth::follow_links(std::uint32_t group, std::uint32_t ta
 void IntermediateGraphGrowth::reach_forward(std::uint32_t group, std::uint32_t node, Reach reach) {
   const bool is_backward = has_bit(states_.of_group(states_.backward, group), node);
   if (reach == Reach::kMark && !is_backward) return;
-  if (has_bit(states_.of_group(states_.forward, group), node)) return;
-  set_bit(std::span(states_.forward).subspan(states_.first_word[group]), node);
+  if (has_bit(states_.of_group(reached(reach), group), node)) return;
+  set_bit(std::span(reached(reach)).subspan(states_.first_word[group]), node);
   if (reach == Reach::kMark) return;
   if (!is_backward) ++states_.created;
   push(forward_queue_, group, kQueuedForward);
@@ -292,13 +295,14 @@ void IntermediateGraphGrowth::prune() {
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::sort(
       order, [this](std::uint32_t a, std::uint32_t b) { return states_.groups.precedes(a, b); });
+  marked_ = states_.forward;
   for (const std::uint32_t group : order) {
     if ((flags_[group] & kExpandedForward) != 0) continue;
     for (std::size_t at = states_.first_word[group]; at < states_.first_word[group + 1]; ++at)
-      states_.forward[at] &= states_.backward[at];
+      marked_[at] &= states_.backward[at];
     expand_forward(group, Reach::kMark);
   }
-  states_.alive.assign(states_.forward.size(), 0);
+  states_.alive.assign(marked_.size(), 0);
   for (auto group = order.rbegin(); group != order.rend(); ++group) prune_backward(*group);
 }
 
@@ -309,7 +313,7 @@ void IntermediateGraphGrowth::prune_backward(std::uint32_t group) {
   const auto alive = std::span(states_.alive).subspan(states_.first_word[group]);
   const bool is_end = consumption_.may_end(zone, states_.groups.consumed(group));
   std::vector<std::uint32_t> open;
-  for_each_bit(states_.of_group(states_.forward, group), [&](std::uint32_t tail) {
+  for_each_bit(states_.of_group(marked_, group), [&](std::uint32_t tail) {
     const std::uint32_t node = graph_.zones[zone].first_node + tail;
     if (is_end && std::ranges::binary_search(graph_.exits, node, {}, &Terminal::node))
       set_bit(alive, tail);

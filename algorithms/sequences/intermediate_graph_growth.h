@@ -74,6 +74,9 @@ class IntermediateGraphGrowth {
   void retrace_arcs(std::uint32_t group, const ZoneArcs& arcs, NodeBits heads);
   void retrace_links(std::uint32_t group, std::uint32_t head);
   void reach_backward(std::uint32_t zone, std::span<const Amount> consumed, NodeBits tails);
+  [[nodiscard]] std::vector<std::uint64_t>& reached(Reach reach) {
+    return reach == Reach::kCreate ? states_.forward : marked_;
+  }
   void prune();
   void prune_backward(std::uint32_t group);
   [[nodiscard]] bool leads_on(std::uint32_t group, std::uint32_t tail, const ZoneArcs* arcs);
@@ -88,7 +91,8 @@ class IntermediateGraphGrowth {
   GrowthLimits limits_;
   GrownStates states_;
   bool is_bidirectional_ = false;
-  std::vector<std::uint8_t> flags_;                     ///< by group
+  std::vector<std::uint64_t> marked_;  ///< while pruning: what entries reach, as a set of states
+  std::vector<std::uint8_t> flags_;    ///< by group
   std::vector<std::uint32_t> forward_queue_;            ///< a heap, least vector on top
   std::vector<std::uint32_t> backward_queue_;           ///< a heap, greatest vector on top
   std::vector<std::vector<std::uint32_t>> links_into_;  ///< by node
