@@ -88,6 +88,9 @@ TEST(StreetDatabase, NestsDensitiesAndSharesOfFreeTransitions) {
   const auto dense = pairs_of(street_database({.density_01 = 0.4}, 1), false);
   EXPECT_NEAR(static_cast<double>(sparse.size()), 540.0, 80.0);
   EXPECT_TRUE(std::ranges::includes(dense, sparse));
+  std::set<std::uint32_t> tails;
+  for (const auto& [from, to] : sparse) tails.insert(from);
+  EXPECT_GT(tails.size(), 70U);  // spread over all buildings, not all pairs of a few
   const auto few = pairs_of(street_database({.zero_cost_share_01 = 0.2}, 1), true);
   const auto many = pairs_of(street_database({.zero_cost_share_01 = 0.9}, 1), true);
   EXPECT_NEAR(static_cast<double>(many.size()), 0.9 * 5402.0, 120.0);
