@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "sequences/graph_pruning.h"
+#include "sequences/cheapest_ways.h"
+#include "sequences/given_paths.h"
 #include "sequences/monotone_queue.h"
+#include "sequences/resource_bounds.h"
 #include "sequences/state_index.h"
 
 namespace plat::sequences {
@@ -20,62 +21,6 @@ namespace {
 constexpr std::size_t kDenseStates = std::size_t{1} << 24;
 /// How many ways to a state are followed: the first run for one path, each further run for more.
 constexpr std::size_t kLimitGrowth = 4;
-constexpr std::size_t kNoLimit = ~std::size_t{0};
-
-/// The cheapest ways to each state, as many as are followed.
-class CheapestWays {
- public:
-  CheapestWays(std::size_t limit, std::size_t states) : limit_(limit) { grow(states); }
-
-  void grow(std::size_t states) {
-    if (limit_ == 1 && costs_.size() < states) costs_.resize(states, kNoWay);
-    if (limit_ > 1 && limit_ != kNoLimit && ways_.size() < states) ways_.resize(states);
-  }
-  void prefetch(StateIndex::Id state) const {
-    if (limit_ == 1) __builtin_prefetch(&costs_[state]);
-  }
-  /// Whether a way at this cost may be among the cheapest; counts it if so.
-  bool admit(StateIndex::Id state, Cost cost) {
-    if (limit_ == 1) {
-      if (cost >= costs_[state]) return false;
-      states_ += costs_[state] == kNoWay ? 1 : 0;
-      costs_[state] = cost;
-      return true;
-    }
-    if (limit_ == kNoLimit) return ++states_ > 0;
-    auto& costs = ways_[state].costs;
-    if (costs.size() == limit_) {
-      if (cost >= costs.front()) return false;
-      std::ranges::pop_heap(costs);
-      costs.pop_back();
-    }
-    states_ += costs.empty() ? 1 : 0;
-    costs.push_back(cost);
-    std::ranges::push_heap(costs);
-    return true;
-  }
-  /// Whether an admitted way is still among the cheapest when its turn comes.
-  bool take(StateIndex::Id state, Cost cost) {
-    if (limit_ == 1) return cost == costs_[state];
-    return limit_ == kNoLimit || ways_[state].taken++ < limit_;
-  }
-  [[nodiscard]] std::size_t states() const { return states_; }
-  [[nodiscard]] std::size_t bytes_held() const {
-    std::size_t bytes = costs_.capacity() * sizeof(Cost) + ways_.capacity() * sizeof(Ways);
-    for (const Ways& ways : ways_) bytes += ways.costs.capacity() * sizeof(Cost);
-    return bytes;
-  }
-
- private:
-  struct Ways {
-    std::vector<Cost> costs;  ///< a heap, the dearest first
-    std::size_t taken = 0;
-  };
-  std::size_t limit_;
-  std::size_t states_ = 0;
-  std::vector<Cost> costs_;  ///< by state, where only one way is followed
-  std::vector<Ways> ways_;   ///< by state, where several are
-};
 
 /// One search with a fixed limit of ways to a state: gives as many of the best paths as the limit,
 /// and more where they are few.
@@ -86,12 +31,12 @@ class Run {
       : graph_(graph),
         bounds_(bounds),
         max_ways_(max_ways),
-        states_(graph, limit == kNoLimit ? 0 : kDenseStates),
+        states_(graph, limit == CheapestWays::kNoLimit ? 0 : kDenseStates),
         cheapest_(limit, states_.size()),
         consumed_(graph.dimension_count),
         next_consumed_(graph.dimension_count),
         zeros_(graph.dimension_count),
-        is_fresh_(limit == kNoLimit) {
+        is_fresh_(limit == CheapestWays::kNoLimit) {
     for (const Zone& zone : graph.zones) {
       for (const Bounds& limits : zone.bounds) {
         caps_.push_back(largest_amount(limits));
@@ -303,18 +248,17 @@ class ForwardStream final : public SequenceStream {
  public:
   ForwardStream(const SearchGraph& graph, const ForwardSearch::Options& options)
       : graph_(&graph),
-        limit_(options.dominance == ForwardSearch::Dominance::kNone ? kNoLimit : 1),
+        limit_(options.dominance == ForwardSearch::Dominance::kNone ? CheapestWays::kNoLimit : 1),
         max_ways_(static_cast<std::size_t>(options.max_states)) {
     if (options.dominance == ForwardSearch::Dominance::kBounds) {
-      pruned_ = prune(graph);
-      graph_ = &pruned_->graph;
+      bounds_ = resource_bounds(graph);
     }
     start();
   }
 
   Expected<bool> next(SequencePath& path) override {
     while (!is_finished_) {
-      if (given_ == limit_) {
+      if (given_.count() == limit_) {
         run_->add_to(before_);
         limit_ *= kLimitGrowth;
         start();
@@ -322,9 +266,7 @@ class ForwardStream final : public SequenceStream {
       const auto more = run_->next(path);
       if (!more) return more;
       if (!*more) break;
-      if (!is_new(path)) continue;
-      ++given_;
-      if (pruned_) pruned_->restore(path);
+      if (limit_ != CheapestWays::kNoLimit && !given_.add(path)) continue;
       return true;
     }
     is_finished_ = true;
@@ -338,28 +280,15 @@ class ForwardStream final : public SequenceStream {
   }
 
  private:
-  void start() { run_.emplace(*graph_, pruned_ ? &pruned_->bounds : nullptr, limit_, max_ways_); }
-
-  /// A later run gives the earlier paths again, but of those that cost the same as the last one
-  /// perhaps others: all cheaper ones were given, and of the equal ones it is known which.
-  bool is_new(const SequencePath& path) {
-    if (path.cost < last_cost_) return false;
-    if (path.cost > last_cost_) {
-      equal_.clear();
-      last_cost_ = path.cost;
-    }
-    return limit_ == kNoLimit || equal_.insert(path.steps).second;
-  }
+  void start() { run_.emplace(*graph_, bounds_ ? &*bounds_ : nullptr, limit_, max_ways_); }
 
   const SearchGraph* graph_;
-  std::optional<PrunedGraph> pruned_;
+  std::optional<ResourceBounds> bounds_;
   std::size_t limit_;
   std::size_t max_ways_;
   std::optional<Run> run_;
   SearchStatistics before_;  ///< of earlier runs
-  std::size_t given_ = 0;
-  Cost last_cost_ = -1;
-  std::set<std::vector<Step>> equal_;  ///< the paths given at `last_cost_`
+  GivenPaths given_;  ///< not used where every way is followed, and no run comes after the first
   bool is_finished_ = false;
 };
 

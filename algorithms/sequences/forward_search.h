@@ -38,8 +38,7 @@ class ForwardSearch {
                {"states", Dominance::kStates},
                {"bounds", Dominance::kBounds}},
               "which ways are left: none; all but the k cheapest to a state; with bounds also "
-              "those "
-              "that cannot end well, and the rest in order of their least total cost"},
+              "those that cannot end well, and the rest come by their least total cost"},
           Field{"max_states", &Options::max_states, 1, 1'000'000'000,
                 "ways to states that are held before the search gives up"},
       };

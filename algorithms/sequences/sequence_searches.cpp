@@ -2,6 +2,7 @@
 
 #include "sequences/forward_search.h"
 #include "sequences/intermediate_graph_search.h"
+#include "sequences/label_setting_search.h"
 #include "sequences/layered_search.h"
 #include "sequences/ranking_search.h"
 
@@ -11,6 +12,7 @@ const Registry<AnySequenceSearch>& sequence_searches() {
   static const Registry<AnySequenceSearch> kMenu = [] {
     Registry<AnySequenceSearch> all;
     all.add<ForwardSearch>();
+    all.add<LabelSettingSearch>();
     all.add<LayeredSearch>();
     all.add<IntermediateGraphSearch>();
     all.add<RankingSearch>();
