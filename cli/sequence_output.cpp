@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/failure.h"
+#include "sequences/diagnosis.h"
 
 namespace plat::cli {
 
@@ -53,11 +54,6 @@ void LineOutput::finish() {
 
 namespace {
 
-std::string segment_name(const SequenceProblem& problem, std::size_t segment) {
-  const std::string& name = problem.structure.segments[segment].name;
-  return name.empty() ? fmt::format("segment {}", segment + 1) : name;
-}
-
 double step_of(const SequenceProblem& problem, const BoundPlace& place) {
   return problem.database.resources[place.resource].step;
 }
@@ -89,12 +85,6 @@ ordered_json number(std::int64_t steps, double step) {
 
 std::string in_unit(std::int64_t steps, double step) {
   return fmt::format("{:.15g}", static_cast<double>(steps) * step);
-}
-
-std::string place_name(const SequenceProblem& problem, const BoundPlace& place) {
-  const std::string& resource = problem.database.resources[place.resource].name;
-  if (!place.segment) return resource;
-  return fmt::format("{} of {}", resource, segment_name(problem, *place.segment));
 }
 
 std::string bounds_text(const SequenceProblem& problem, const BoundUse& bound) {

@@ -32,9 +32,6 @@ class LineOutput {
 /// An amount or a cost in the user's unit, as short as it reads back: 3 steps of 0.2 are 0.6.
 std::string in_unit(std::int64_t steps, double step);
 
-/// The name of the bound's place: "length_m", or "length_m of north".
-std::string place_name(const sequences::SequenceProblem& problem,
-                       const sequences::BoundPlace& place);
 /// "12", "8..10", "8.." or "..10" in the resource's unit.
 std::string bounds_text(const sequences::SequenceProblem& problem,
                         const sequences::BoundUse& bound);

@@ -5,12 +5,6 @@
 namespace plat::sequences {
 namespace {
 
-BoundPlace place_of(const CompiledProblem& compiled, std::size_t dimension, std::size_t zone) {
-  const DimensionMeaning& meaning = compiled.dimensions[dimension];
-  if (!meaning.is_local) return {meaning.resource, std::nullopt};
-  return {meaning.resource, compiled.zone_segments[zone]};
-}
-
 /// The whole first, then by segment.
 bool comes_before(const BoundUse& a, const BoundUse& b) {
   return std::pair(a.place.segment, a.place.resource) <
@@ -18,6 +12,12 @@ bool comes_before(const BoundUse& a, const BoundUse& b) {
 }
 
 }  // namespace
+
+BoundPlace place_of(const CompiledProblem& compiled, std::size_t dimension, std::size_t zone) {
+  const DimensionMeaning& meaning = compiled.dimensions[dimension];
+  if (!meaning.is_local) return {meaning.resource, std::nullopt};
+  return {meaning.resource, compiled.zone_segments[zone]};
+}
 
 std::vector<BoundUse> bounds_of(const CompiledProblem& compiled) {
   std::vector<BoundUse> out;

@@ -22,6 +22,9 @@ struct BoundUse {
   std::int64_t consumed = 0;
 };
 
+/// What a dimension counts in a zone.
+BoundPlace place_of(const CompiledProblem& compiled, std::size_t dimension, std::size_t zone);
+
 /// The bounds of a problem that limit something: those on the whole by resource, then the local
 /// ones by segment and resource. In a plain sequence, which has one segment, both are the whole.
 std::vector<BoundUse> bounds_of(const CompiledProblem& compiled);
