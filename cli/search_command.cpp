@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include "command.h"
 #include "core/options.h"
 #include "core/progress.h"
+#include "diagnosis_output.h"
 #include "graph_output.h"
 #include "sequence_output.h"
 #include "sequences/problem_file.h"
@@ -29,6 +31,7 @@ struct Arguments {
   bool as_json = false;
   std::string out;
   std::string graph;
+  std::vector<std::string> relaxed;
 };
 
 /// More sequences than this are long work.
@@ -131,12 +134,50 @@ CompiledProblem compile_named(const SequenceProblem& problem, const std::string&
   }
 }
 
+/// "length_m=1,balconies=5" and "north:length_m=2": the bounds on a resource wherever there are
+/// any, or on one segment.
+std::vector<sequences::BoundWeight> weights_of(const Arguments& args,
+                                               const SequenceProblem& problem,
+                                               const CompiledProblem& compiled) {
+  std::vector<sequences::BoundWeight> weights;
+  for (const std::string& assignment : args.relaxed) {
+    const auto [name, value] = parse_option(assignment);
+    const auto* weight = std::get_if<double>(&value);
+    if (weight == nullptr || !(*weight > 0.0))
+      throw InputError(fmt::format("--relax {}: the weight must be a number above 0", assignment));
+    const std::vector<sequences::BoundPlace> places = places_named(problem, compiled, name);
+    for (const auto& place : places) {
+      const auto known = std::ranges::find(weights, place, &sequences::BoundWeight::place);
+      if (known == weights.end())
+        weights.push_back({place, *weight});
+      else if (places.size() == 1)
+        known->weight = *weight;
+    }
+  }
+  return weights;
+}
+
+/// Why there is no sequence, and the best relaxation where one is asked for: the text, and the same
+/// into the summary.
+std::string explain(const Arguments& args, const SequenceProblem& problem,
+                    const CompiledProblem& compiled, ordered_json& summary) {
+  const auto diagnosis = diagnose(compiled, problem);
+  summary["diagnosis"] = diagnosis_json(problem, diagnosis);
+  std::string text = "\n" + diagnosis_text(problem, diagnosis);
+  const auto weights = weights_of(args, problem, compiled);
+  if (weights.empty() || !diagnosis || !diagnosis->gap.empty()) return text;
+  const auto relaxation = relax(compiled, problem, weights);
+  summary["relaxation"] = relaxation_json(compiled, problem, relaxation);
+  return text + "\n" + relaxation_text(compiled, problem, relaxation);
+}
+
 ExitStatus run(const Arguments& args) {
   const auto method = sequences::sequence_searches().make(args.method, options_of(args));
   const sequences::ReadProblem read = sequences::read_problem(args.problem);
   const SequenceProblem& problem = read.problem;
   const CompiledProblem compiled = compile_named(problem, args.problem);
   if (!args.graph.empty()) write_graph(compiled, problem, args.graph);
+  static_cast<void>(weights_of(args, problem, compiled));  // before any work is done
   LineOutput out(args.out);
   if (!args.as_json)
     for (const std::string& note : read.notes) out.line(args.problem + ": " + note);
@@ -147,7 +188,10 @@ ExitStatus run(const Arguments& args) {
       });
   ordered_json summary = outcome_json(args, method.options(), outcome);
   summary["notes"] = read.notes;
-  out.line(args.as_json ? summary.dump() : outcome_text(args, outcome));
+  const bool has_none = outcome.found == 0 && outcome.is_everything;
+  std::string reasons;
+  if (has_none) reasons = explain(args, problem, compiled, summary);
+  out.line(args.as_json ? summary.dump() : outcome_text(args, outcome) + reasons);
   out.finish();
   return outcome.failure || outcome.found == 0 ? kFinishedWithFailures : kDone;
 }
@@ -175,11 +219,20 @@ void add_search_command(CLI::App& app, Action& action) {
   command->add_option(
       "--graph", args->graph,
       "JSON file for the intermediate graph of a small problem, dead ends included");
+  command
+      ->add_option(
+          "--relax", args->relaxed,
+          "where no sequence keeps the bounds: those that may be missed, RESOURCE=WEIGHT or "
+          "SEGMENT:RESOURCE=WEIGHT, weight per unit; finds the sequence that misses least")
+      ->delimiter(',');
   command->footer(
       "Example:\n  plat search docs/examples/street.json --k 3\n"
       "  plat search docs/examples/playlist.json --method layered --k 1000 --json --out "
       "lists.jsonl\n"
+      "  plat search problem.json --relax length_m=1,balconies=5\n"
       "Amounts and costs are in the units of the file.\n"
+      "Where there is no sequence, it says which bounds cut the space and the nearest amounts\n"
+      "that can be attained.\n"
       "Exit status: 0 done, 1 no sequence keeps the bounds, or the search stopped, 2 bad input.");
   command->callback([args, &action] { action = [args] { return run(*args); }; });
 }

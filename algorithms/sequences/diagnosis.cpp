@@ -35,10 +35,7 @@ class Diagnostician {
  public:
   Diagnostician(const CompiledProblem& compiled, const SequenceProblem& problem,
                 const DiagnosisLimits& limits)
-      : compiled_(compiled),
-        problem_(problem),
-        limits_(limits),
-        bounds_(bounds_of(compiled)) {}
+      : compiled_(compiled), problem_(problem), limits_(limits), bounds_(bounds_of(compiled)) {}
 
   Expected<Diagnosis> run() {
     std::vector<std::size_t> all(bounds_.size());
@@ -66,8 +63,7 @@ class Diagnostician {
   }
   bool has_sequence_without(const std::vector<std::size_t>& removed) {
     Stretches stretches = no_stretches(compiled_);
-    for (const std::size_t b : removed)
-      stretch(compiled_, bounds_[b].place, kRemoved, stretches);
+    for (const std::size_t b : removed) stretch(compiled_, bounds_[b].place, kRemoved, stretches);
     return least_price(stretches).has_value();
   }
 
@@ -189,8 +185,8 @@ std::vector<double> weights_per_quantum(const SequenceProblem& problem,
   std::vector<double> out;
   for (const auto& [place, weight] : weights) {
     if (!(weight > 0.0))
-      throw InputError(fmt::format("weight of {} = {}, allowed above 0",
-                                   place_name(problem, place), weight));
+      throw InputError(
+          fmt::format("weight of {} = {}, allowed above 0", place_name(problem, place), weight));
     out.push_back(weight * step_of(problem, place));
   }
   return out;
@@ -201,8 +197,7 @@ void expect_bounds(const CompiledProblem& compiled, const SequenceProblem& probl
   const auto bounds = bounds_of(compiled);
   for (const auto& weight : weights)
     if (std::ranges::find(bounds, weight.place, &BoundUse::place) == bounds.end())
-      throw InputError(
-          fmt::format("{} has no bound to relax", place_name(problem, weight.place)));
+      throw InputError(fmt::format("{} has no bound to relax", place_name(problem, weight.place)));
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ struct Diagnosis {
   /// What no transition leads beyond, in words; empty: without its bounds the problem has
   /// sequences.
   std::string gap;
-  /// The smallest sets of bounds of which each, taken away, lets sequences be: all sets of the least
-  /// size. Where trying them would take more than `kMostTrials` searches, one set that has no
+  /// The smallest sets of bounds of which each, taken away, lets sequences be: all sets of the
+  /// least size. Where trying them would take more than `kMostTrials` searches, one set that has no
   /// smaller one in it.
   std::vector<std::vector<BoundPlace>> cuts;
   bool has_all_cuts = true;
@@ -61,8 +61,8 @@ struct Relaxation {
 /// The best relaxation: of all sequences that keep the bounds without a weight, one whose sum of
 /// weight x distance to the weighted bounds is least, and of those the cheapest.
 ///
-/// Guarantees: 1. exact (`stretched_path`);  2. nothing where no sequence keeps the bounds without a
-/// weight.
+/// Guarantees: 1. exact (`stretched_path`);  2. nothing where no sequence keeps the bounds without
+/// a weight.
 /// @returns  Failure kTooManyStates where the search meets more states than allowed
 /// @throws InputError  for a weight that is not above 0, for weights that have no common measure of
 ///                     at most 9 decimals, or where no such bound is

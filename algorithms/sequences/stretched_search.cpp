@@ -48,8 +48,7 @@ class StretchedSearch {
     for (std::uint32_t i = 0; i < graph_.entries.size(); ++i) {
       const auto& entry = graph_.entries[i];
       Reached reached{Amounts(graph_.dimension_count, 0), 0};
-      if (enter(entry.node, nullptr, reached))
-        meet(reached, entry.cost, kNobody, {entry.node, i});
+      if (enter(entry.node, nullptr, reached)) meet(reached, entry.cost, kNobody, {entry.node, i});
     }
     while (!queue_.empty()) {
       const Waiting top = queue_.top();
@@ -114,14 +113,13 @@ class StretchedSearch {
     const auto uses = graph_.uses(node);
     for (std::size_t d = 0; d < reached.amounts.size(); ++d) {
       const Bounds limit = bounds(z, d);
-      const std::int64_t sum = std::int64_t{reached.amounts[d]} + uses[d] +
-                               (arc_uses == nullptr ? 0 : arc_uses[d]);
+      const std::int64_t sum =
+          std::int64_t{reached.amounts[d]} + uses[d] + (arc_uses == nullptr ? 0 : arc_uses[d]);
       if (limit.max != kUnbounded && sum > limit.max) {
         if (!stretches_[z][d].above) return false;
         reached.price += *stretches_[z][d].above * (sum - limit.max);
       }
-      reached.amounts[d] =
-          static_cast<Amount>(std::min<std::int64_t>(sum, largest_amount(limit)));
+      reached.amounts[d] = static_cast<Amount>(std::min<std::int64_t>(sum, largest_amount(limit)));
     }
     return true;
   }
@@ -173,10 +171,9 @@ class StretchedSearch {
       const std::uint32_t local = node - zone.first_node;
       for (std::uint32_t a = table.first[local]; a < table.first[local + 1]; ++a) {
         Reached next = here;
-        const Amount* uses =
-            table.arc_uses.empty()
-                ? nullptr
-                : table.arc_uses.data() + std::size_t{a} * graph_.dimension_count;
+        const Amount* uses = table.arc_uses.empty()
+                                 ? nullptr
+                                 : table.arc_uses.data() + std::size_t{a} * graph_.dimension_count;
         const std::uint32_t head = zone.first_node + table.arcs[a].head;
         if (enter(head, uses, next)) meet(next, label.cost + table.arcs[a].cost, number, {head, a});
       }
@@ -192,8 +189,7 @@ class StretchedSearch {
 
   /// Where the path may end here, lets the end wait for its turn.
   void end(const Label& label, std::uint32_t number, const Reached& here) {
-    const auto exit =
-        std::ranges::lower_bound(graph_.exits, label.step.node, {}, &Terminal::node);
+    const auto exit = std::ranges::lower_bound(graph_.exits, label.step.node, {}, &Terminal::node);
     if (exit == graph_.exits.end() || exit->node != label.step.node) return;
     Reached ended = here;
     const std::uint32_t z = graph_.zone_of(label.step.node);

@@ -85,6 +85,42 @@ class Search(CliTest):
         self.assert_status(result, FAILURES)
         self.assertIn("0 sequences, there are no more", result.stdout)
 
+    def test_no_solution_names_what_cuts_and_what_is_near(self):
+        problem = self.problem(bounds={"length_m": 0.8})
+        result = plat("search", problem)
+        self.assertIn("without these bounds there are sequences: length_m\n", result.stdout)
+        self.assertIn("length_m 0.8: nearest attainable with all other bounds kept: 0.6 and 1\n", result.stdout)
+        summary = lines(plat("search", problem, "--json").stdout)[-1]
+        self.assertEqual(summary["diagnosis"]["cuts"], [[{"resource": "length_m"}]])
+        self.assertEqual(summary["diagnosis"]["nearest"], [{"resource": "length_m", "below": 0.6, "above": 1}])
+
+    def test_no_transitions_at_all_are_told(self):
+        result = plat("search", self.problem(elements=[{"name": "a", "front": False}], transition_matrix=[[1]]))
+        self.assert_status(result, FAILURES)
+        self.assertIn("whatever the bounds: no element may begin", result.stdout)
+
+    def test_relaxation_misses_least_and_is_refused_for_unknown_bounds(self):
+        problem = self.problem(bounds={"length_m": 1.4})
+        result = plat("search", problem, "--relax", "length_m=10", "--json")
+        self.assert_status(result, FAILURES)
+        relaxation = lines(result.stdout)[-1]["relaxation"]
+        self.assertEqual(relaxation["distance"], 2)
+        self.assertEqual(relaxation["sequence"]["elements"], ["b", "a"])  # 1.6 at cost 0
+        self.assert_refused(plat("search", problem, "--relax", "lenth_m=1"), "lenth_m", "length_m")
+        self.assert_refused(plat("search", problem, "--relax", "length_m=no"), "length_m=no", "above 0")
+
+    def test_local_bounds_are_relaxed_by_segment(self):
+        document = json.loads((ROOT / "docs" / "examples" / "corner_and_t.json").read_text(encoding="utf-8"))
+        next(s for s in document["segments"] if s["name"] == "north")["bounds"]["length_m"] = 12
+        path = self.path("structure.json")
+        path.write_text(json.dumps(document), encoding="utf-8")
+        result = plat("search", path, "--relax", "length_m=1,north:length_m=0.5", "--json")
+        self.assert_status(result, FAILURES)
+        summary = lines(result.stdout)[-1]
+        self.assertIn([{"resource": "length_m", "segment": "north"}], summary["diagnosis"]["cuts"])
+        relaxed = summary["relaxation"]["sequence"]["consumed_by_segment"]["north"]["length_m"]
+        self.assertAlmostEqual(summary["relaxation"]["distance"], 0.5 * abs(relaxed - 12))
+
     def test_a_structure_is_told_by_its_parts(self):
         result = plat("search", ROOT / "docs" / "examples" / "corner_and_t.json", "--json")
         best = lines(result.stdout)[0]
