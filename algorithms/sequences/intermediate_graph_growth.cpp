@@ -67,6 +67,7 @@ Expected<GrownStates> IntermediateGraphGrowth::run() {
 
 /// Whether few enough states may be the last before an exit or before a link that resets amounts.
 bool IntermediateGraphGrowth::grows_backward() const {
+  if (limits_.bounds != nullptr) return false;
   std::vector<AmountRange> box(graph_.dimension_count);
   double end_states = 0.0;
   for (const Terminal& exit : graph_.exits) {
@@ -90,6 +91,7 @@ void IntermediateGraphGrowth::enter() {
     const std::uint32_t zone = consumption_.zone_of(entry.node);
     std::ranges::fill(consumed, 0);
     if (!consumption_.add(zone, consumed, graph_.uses(entry.node))) continue;
+    if (!may_end(entry.node, consumed)) continue;
     reach_forward(group_of(zone, consumed), consumption_.local(entry.node), Reach::kCreate);
   }
 }
@@ -142,6 +144,7 @@ void IntermediateGraphGrowth::expand_forward(std::uint32_t group, Reach reach) {
 void IntermediateGraphGrowth::follow_arcs(std::uint32_t group, const ZoneArcs& arcs, NodeBits tails,
                                           Reach reach) {
   const auto go = [&](std::uint32_t arc_class, std::uint32_t head) {
+    if (reach == Reach::kCreate && !may_go_on(group, arcs.used(arc_class), head)) return;
     const std::uint32_t target = target_of(group, arc_class, arcs, reach);
     if (target != StateGroups::kNone) reach_forward(target, head, reach);
   };
@@ -158,6 +161,17 @@ void IntermediateGraphGrowth::follow_arcs(std::uint32_t group, const ZoneArcs& a
     for (std::uint32_t arc = table.first[tail]; arc < table.first[tail + 1]; ++arc)
       go(arcs.class_of(arc), table.arcs[arc].head);
   });
+}
+
+/// Asked before a group is made for the head, since most heads are refused where bounds are given.
+bool IntermediateGraphGrowth::may_go_on(std::uint32_t group, std::span<const Amount> used,
+                                        std::uint32_t head) {
+  if (limits_.bounds == nullptr) return true;
+  const std::uint32_t zone = states_.groups.zone(group);
+  const auto here = states_.groups.consumed(group);
+  scratch_.assign(here.begin(), here.end());
+  return consumption_.add(zone, scratch_, used) &&
+         may_end(graph_.zones[zone].first_node + head, scratch_);
 }
 
 void IntermediateGraphGrowth::follow_links(std::uint32_t group, std::uint32_t tail, Reach reach) {
@@ -200,6 +214,7 @@ std::uint32_t IntermediateGraphGrowth::target_of(std::uint32_t group, const Link
   const auto here = states_.groups.consumed(group);
   std::vector<Amount> consumed(here.begin(), here.end());
   if (!consumption_.follow(link, consumed)) return StateGroups::kNone;
+  if (reach == Reach::kCreate && !may_end(link.to, consumed)) return StateGroups::kNone;
   const std::uint32_t zone = consumption_.zone_of(link.to);
   return reach == Reach::kCreate ? group_of(zone, consumed) : states_.groups.find(zone, consumed);
 }

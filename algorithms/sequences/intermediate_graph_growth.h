@@ -7,6 +7,7 @@
 
 #include "core/failure.h"
 #include "sequences/consumption.h"
+#include "sequences/resource_bounds.h"
 #include "sequences/search_graph.h"
 #include "sequences/state_groups.h"
 #include "sequences/zone_arcs.h"
@@ -19,6 +20,9 @@ struct GrowthLimits {
   /// Growth from the end begins with every vector that a path may end with. Where that would be
   /// more than so many states, the graph is grown from the front alone, and comes out the same.
   std::uint64_t max_end_states = 100'000;
+  /// Where given, states are not created that cannot end well by these, and growth is from the
+  /// front alone. Must outlive the growth.
+  const ResourceBounds* bounds = nullptr;
 };
 
 /// The states of an intermediate graph, as sets of nodes by group.
@@ -66,6 +70,10 @@ class IntermediateGraphGrowth {
   void expand_forward(std::uint32_t group, Reach reach);
   void follow_arcs(std::uint32_t group, const ZoneArcs& arcs, NodeBits tails, Reach reach);
   void follow_links(std::uint32_t group, std::uint32_t tail, Reach reach);
+  [[nodiscard]] bool may_end(std::uint32_t node, std::span<const Amount> consumed) const {
+    return limits_.bounds == nullptr || limits_.bounds->may_end(node, consumed);
+  }
+  bool may_go_on(std::uint32_t group, std::span<const Amount> used, std::uint32_t head);
   void reach_forward(std::uint32_t group, std::uint32_t node, Reach reach);
   [[nodiscard]] std::uint32_t target_of(std::uint32_t group, std::uint32_t arc_class,
                                         const ZoneArcs& arcs, Reach reach);
@@ -99,6 +107,7 @@ class IntermediateGraphGrowth {
   std::vector<std::vector<Amount>> greatest_uses_;      ///< by zone
   std::vector<std::pair<std::uint64_t, std::uint32_t>> targets_;  ///< by class: when, group
   std::uint64_t now_ = 0;
+  std::vector<Amount> scratch_;
 };
 
 }  // namespace plat::sequences

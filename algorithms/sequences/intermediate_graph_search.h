@@ -16,13 +16,15 @@ namespace plat::sequences {
 /// paths in it.
 ///
 /// Equal costs come in the order of `KShortestWalks`, arcs of a state as in its table, links after
-/// arcs, the exit last.
+/// arcs, the exit last. For graphs with many resources, whose states are too many, there is
+/// `bounding`: the paths and their costs stay the same.
 ///
-/// Guarantees: 1. those of `SequenceSearch`;  2. `states_created` is the number of nodes of the
-/// thesis's graph after its prunings, `states_pruned` how many dead ends there were.
+/// Guarantees: 1. those of `SequenceSearch`;  2. without bounding, `states_created` is the number
+/// of nodes of the thesis's graph after its prunings, and `states_pruned` that of its dead ends;
+/// with bounding by cost they are those of the last graph, of paths up to the limit.
 /// @returns       Failure kTooManyStates beyond `max_states`
 /// Complexity:    O(states x arcs of a node) for the first path, then as `KShortestWalks`
-/// Paper:         [Har, Sec. 3.3]; k best by [Epp94]
+/// Paper:         [Har, Sec. 3.3]; k best by [Epp94]; bounds as in [BC89]
 /// Deviation:     ADR 0019
 class IntermediateGraphSearch {
  public:
@@ -30,12 +32,23 @@ class IntermediateGraphSearch {
   static constexpr std::string_view kSummary =
       "the graph of all feasible sequences, grown from both ends by what is consumed, then k "
       "shortest paths [Har, Sec. 3.3]";
+  enum class Bounding { kNone, kResources, kResourcesAndCost };
   struct Options {
+    Bounding bounding = Bounding::kNone;    ///< which states are not created
     std::uint32_t max_states = 50'000'000;  ///< states held, dead ends included
     /// Last states from which growth from the end may begin; more, and it is from the front alone.
     std::uint32_t max_end_states = 100'000;
     static constexpr auto fields() {
       return std::tuple{
+          EnumField<Options, Bounding, 3>{
+              "bounding",
+              &Options::bounding,
+              {{"none", Bounding::kNone},
+               {"resources", Bounding::kResources},
+               {"resources_and_cost", Bounding::kResourcesAndCost}},
+              "which states are not created: none, as in the paper; those that by some resource "
+              "cannot end well; also those whose cost is beyond a limit, which is raised as "
+              "needed"},
           Field{"max_states", &Options::max_states, 1, 1'000'000'000,
                 "states that may be held, dead ends included; more is a failure"},
           Field{"max_end_states", &Options::max_end_states, 0, 1'000'000'000,

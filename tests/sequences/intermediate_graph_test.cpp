@@ -1,17 +1,21 @@
 #include "sequences/intermediate_graph.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "sequences/compiled_problem.h"
 #include "sequences/intermediate_graph_search.h"
 #include "sequences/intermediate_graph_trace.h"
+#include "sequences/or_library.h"
 #include "sequences/support/brute_force.h"
 #include "sequences/support/contract.h"
 #include "sequences/support/random_problems.h"
 #include "sequences/support/thesis_construction.h"
+#include "support/data_folder.h"
 #include "support/property.h"
 
 namespace plat::sequences {
@@ -187,6 +191,48 @@ TEST(IntermediateGraphSearch, HoldsItsContractFromBothEndsAndFromTheFrontAlone) 
       const IntermediateGraphSearch search({.max_end_states = max_end_states});
       ASSERT_EQ(why_not_in_contract(search, graph, best, 50), "") << i;
     }
+  }
+}
+
+TEST(IntermediateGraphSearch, HoldsItsContractUnderEveryBounding) {
+  using Bounding = IntermediateGraphSearch::Bounding;
+  Rng rng = property_rng("bounding");
+  std::uint64_t without = 0;
+  std::uint64_t with_resources = 0;
+  for (int i = 0; i < iterations(300); ++i) {
+    const SearchGraph graph =
+        i % 2 == 0 ? random_search_graph(rng) : compile(random_plain_problem(rng)).graph;
+    const auto best = plat::testing::k_best_paths(graph, 50);
+    for (const auto bounding : {Bounding::kResources, Bounding::kResourcesAndCost}) {
+      const IntermediateGraphSearch search({.bounding = bounding});
+      ASSERT_EQ(why_not_in_contract(search, graph, best, 50), "") << i;
+    }
+    without += (*IntermediateGraphSearch({.max_end_states = 0}).search(graph))
+                   ->statistics()
+                   .states_expanded;
+    with_resources += (*IntermediateGraphSearch({.bounding = Bounding::kResources}).search(graph))
+                          ->statistics()
+                          .states_expanded;
+  }
+  EXPECT_LT(with_resources, without);
+}
+
+/// [BC89]: general graphs with up to 500 vertices and 10 resources.
+TEST(IntermediateGraphSearch, FindsThePublishedOptimaWithBounds) {
+  PLAT_REAL_DATA_OR_SKIP(results, "rcsp_or_library/results.txt");
+  const IntermediateGraphSearch search(
+      {.bounding = IntermediateGraphSearch::Bounding::kResourcesAndCost});
+  for (const auto& optimum : read_or_library_optima(results)) {
+    const auto file = fmt::format("rcsp{}.txt", optimum.instance);
+    const SearchGraph graph =
+        compile(read_or_library(std::filesystem::path(results).replace_filename(file))).graph;
+    const auto stream = search.search(graph);
+    ASSERT_TRUE(stream.has_value()) << optimum.instance;
+    const auto paths = find_paths(**stream, 1);
+    ASSERT_TRUE(paths.has_value()) << optimum.instance;
+    ASSERT_EQ(paths->empty(), !optimum.cost.has_value()) << optimum.instance;
+    const Cost found = paths->empty() ? 0 : paths->front().cost;
+    EXPECT_EQ(found, optimum.cost.value_or(0)) << optimum.instance;
   }
 }
 
