@@ -99,22 +99,23 @@ class Filler {
   void fill_runs(std::size_t zone) {
     const ZoneLayers& layers = plan_.zones[zone];
     next_runs_.resize(layers.class_count);
-    for (std::size_t run = layers.reaches.size(); run-- > 0;) {
-      const auto reach = layers.reaches[run];
-      if (reach.is_empty()) continue;
-      const Row begin = layers.first_row_of_run(run);
-      for (Row row = begin + reach.first; row <= begin + reach.last; ++row) {
-        layers.consumed(row, consumed_);
-        add_exits(zone, row);
-        add_links(zone, row);
-      }
+    for (std::size_t r = layers.runs.size(); r-- > 0;) {
+      const ZoneLayers::Run& run = layers.runs[r];
+      if (run.is_empty()) continue;
+      layers.amounts_of(r, consumed_);
       for (std::uint32_t c = 0; c < layers.class_count; ++c)
         next_runs_[c] = layers.run_after(consumed_, c);
+      consumed_[*layers.run_dimension] += static_cast<Amount>(run.first);
+      for (std::uint32_t k = 0; k <= run.last - run.first; ++k) {
+        add_exits(zone, run.start + k);
+        add_links(zone, run.start + k);
+        ++consumed_[*layers.run_dimension];
+      }
       relax_run(zone, run);
     }
   }
 
-  void relax_run(std::size_t zone, std::size_t run) {
+  void relax_run(std::size_t zone, const ZoneLayers::Run& run) {
     const ZoneLayers& layers = plan_.zones[zone];
     const TableForm<Value>& form = this->form(*graph_.zones[zone].table);
     const auto& kernels = min_plus_kernels<Value>(set_, static_cast<std::size_t>(layers.least_use));
@@ -122,16 +123,15 @@ class Filler {
     // computes the others again, from what they have so far.
     const auto block = static_cast<std::ptrdiff_t>(
         std::min(kernels.width, static_cast<std::size_t>(layers.least_use)));
-    const auto first = static_cast<std::ptrdiff_t>(layers.reaches[run].first);
+    const auto first = static_cast<std::ptrdiff_t>(run.first);
     const auto width = static_cast<std::ptrdiff_t>(kernels.width);
-    const Row begin = layers.first_row_of_run(run);
     const std::size_t tails = graph_.zones[zone].size;
     const std::size_t stride = table_.place(zone).node_stride;
     const auto& table = transitions(zone);
-    for (std::ptrdiff_t top = layers.reaches[run].last; top >= first; top -= block) {
+    for (std::ptrdiff_t top = run.last; top >= first; top -= block) {
       const std::ptrdiff_t offset = top + 1 - width;
-      find_sources(zone, offset);
-      Value* out = table_.at(zone, begin, 0) + offset;
+      find_sources(zone, offset, width);
+      Value* out = table_.at(zone, run.start, 0) + (offset - first);
       if (form.is_dense) {
         kernels.product(form.panels.data(), sources_.data(), tails, out, stride, tails);
         continue;
@@ -141,24 +141,23 @@ class Filler {
                        form.source_of.data() + table.first[tail], sources_.data(),
                        table.first[tail + 1] - table.first[tail], out + tail * stride);
     }
-    arcs_relaxed_ += (layers.reaches[run].last - layers.reaches[run].first + 1) * table.arcs.size();
+    arcs_relaxed_ += (run.last - run.first + 1) * table.arcs.size();
   }
 
   /// Where the layers behind the block at `offset` begin, by head, or by arc.
-  void find_sources(std::size_t zone, std::ptrdiff_t offset) {
+  void find_sources(std::size_t zone, std::ptrdiff_t offset, std::ptrdiff_t width) {
     const ZoneLayers& layers = plan_.zones[zone];
     const TransitionTable& table = transitions(zone);
     const std::uint32_t d = *layers.run_dimension;
-    const auto top = static_cast<std::ptrdiff_t>(layers.highest[d] - layers.lowest[d]);
     const std::size_t stride = table_.place(zone).node_stride;
     const Value* values = table_.at(zone, 0, 0);
-    behind_.resize(layers.class_count);
+    behind_.assign(layers.class_count, kNowhere);
     for (std::uint32_t c = 0; c < layers.class_count; ++c) {
+      if (!next_runs_[c]) continue;
+      const ZoneLayers::Run& next = layers.runs[*next_runs_[c]];
       const std::ptrdiff_t behind = offset + layers.uses_of(c)[d];
-      behind_[c] =
-          !next_runs_[c] || behind > top
-              ? kNowhere
-              : static_cast<std::ptrdiff_t>(layers.first_row_of_run(*next_runs_[c])) + behind;
+      if (next.is_empty() || behind > next.last || behind + width <= next.first) continue;
+      behind_[c] = static_cast<std::ptrdiff_t>(next.start) + behind - next.first;
     }
     const bool is_by_arc = !table.arc_uses.empty();
     sources_.resize(layers.class_of.size());

@@ -7,9 +7,6 @@
 namespace plat::sequences {
 namespace {
 
-/// A zone of runs may take one in so many of all values: its box has cells that no path reaches.
-constexpr std::uint64_t kLargestShareOfRuns = 2;
-
 /// Builds the plan, zone by zone: backwards what must be remembered, forwards what is reached.
 class Planner {
  public:
@@ -33,13 +30,17 @@ class Planner {
     for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
       ZoneLayers& layers = plan_.zones[z];
       if (layers.run_dimension)
-        spread_reaches(layers);
+        spread_forwards(layers);
       else if (!layers.row_of_cell.empty())
         number_rows(layers);
+      enter_next_zones(z);
+    }
+    for (std::size_t z = 0; z < graph_.zones.size(); ++z) {
+      ZoneLayers& layers = plan_.zones[z];
+      if (layers.run_dimension && !start_runs(z)) return std::nullopt;
       plan_.state_count += layers.reached_rows() * graph_.zones[z].size;
       plan_.value_count += std::uint64_t{layers.row_count} * graph_.zones[z].size;
       if (plan_.value_count > max_values_) return std::nullopt;
-      enter_next_zones(z);
     }
     return std::move(plan_);
   }
@@ -184,20 +185,13 @@ class Planner {
   /// Gives every dimension its step. Nothing where there are more cells than `max_values_`.
   std::optional<std::uint64_t> number_cells(ZoneLayers& layers) const {
     const auto width = static_cast<std::uint32_t>(layers.highest.size());
-    layers.order.clear();
-    for (std::uint32_t d = 0; d < width; ++d)
-      if (d != layers.run_dimension) layers.order.push_back(d);
-    if (layers.run_dimension) layers.order.push_back(*layers.run_dimension);
-    layers.step.assign(width, 1);
+    layers.step.assign(width, 0);
     std::uint64_t cells = 1;
-    for (std::uint32_t k = width; k-- > 0;) {
-      const std::uint32_t d = layers.order[k];
+    for (std::uint32_t d = width; d-- > 0;) {
+      if (d == layers.run_dimension) continue;
       layers.step[d] = cells;
-      const bool is_run = d == layers.run_dimension;
-      const std::uint64_t count = extent(layers, d) + (is_run ? 2 * kRunMargin : 0);
-      if (count > max_values_ / cells) return std::nullopt;
-      cells *= count;
-      if (is_run) layers.run_stride = count;
+      if (extent(layers, d) > max_values_ / cells) return std::nullopt;
+      cells *= extent(layers, d);
     }
     return cells;
   }
@@ -211,18 +205,13 @@ class Planner {
       counting += extent(layers, d) > 1 ? 1 : 0;
     }
     choose_run_dimension(layers);
-    auto cells = number_cells(layers);
-    const std::uint64_t most = max_values_ / kLargestShareOfRuns / graph_.zones[z].size;
-    if (layers.run_dimension && (!cells || *cells > most)) {
-      layers.run_dimension.reset();
-      cells = number_cells(layers);
-    }
+    const auto cells = number_cells(layers);
     if (!cells) return false;
     cells_ += *cells;
     if (cells_ > max_values_ || *cells >= kNoRow) return false;
     layers.row_count = static_cast<Row>(*cells);
     if (layers.run_dimension)
-      layers.reaches.resize(*cells / layers.run_stride);
+      layers.runs.resize(*cells);
     else if (counting > 1 || !graph_.zones[z].table)
       layers.row_of_cell.assign(*cells, kNoRow);
     return true;
@@ -231,40 +220,112 @@ class Planner {
   static void mark(ZoneLayers& layers, std::span<const Amount> consumed,
                    std::span<const Amount> used) {
     if (layers.row_count == 0) return;
+    const auto cell = layers.cell_after(consumed, used);
+    if (!cell) return;
     if (layers.run_dimension) {
-      const Row row = layers.row_after(consumed, used);
-      if (row == kNoRow) return;
-      auto& reach = layers.reaches[row / layers.run_stride];
-      const auto offset = static_cast<std::uint32_t>(row % layers.run_stride - kRunMargin);
-      reach.first = std::min(reach.first, offset);
-      reach.last = std::max(reach.last, offset);
+      const std::uint32_t d = *layers.run_dimension;
+      widen(layers.runs[*cell], std::int64_t{consumed[d]} + used[d] - layers.lowest[d],
+            std::int64_t{consumed[d]} + used[d] - layers.lowest[d]);
     } else if (!layers.row_of_cell.empty()) {
-      if (const auto cell = layers.cell_after(consumed, used)) layers.row_of_cell[*cell] = 0;
+      layers.row_of_cell[*cell] = 0;
     }
   }
 
+  static void widen(ZoneLayers::Run& run, std::int64_t first, std::int64_t last) {
+    if (first > last) return;
+    run.first = std::min(run.first, static_cast<std::uint32_t>(first));
+    run.last = std::max(run.last, static_cast<std::uint32_t>(last));
+  }
+
   /// Follows the zone's uses from run to run.
-  void spread_reaches(ZoneLayers& layers) const {
-    std::vector<Amount> amounts(graph_.dimension_count);
-    std::vector<std::optional<std::size_t>> next(layers.class_count);
-    const auto top = static_cast<std::uint32_t>(extent(layers, *layers.run_dimension) - 1);
-    for (std::size_t run = 0; run < layers.reaches.size(); ++run) {
-      if (layers.reaches[run].is_empty()) continue;
-      layers.consumed(layers.first_row_of_run(run), amounts);
-      for (std::uint32_t c = 0; c < layers.class_count; ++c) next[c] = layers.run_after(amounts, c);
+  void spread_forwards(ZoneLayers& layers) const {
+    const std::int64_t top = static_cast<std::int64_t>(extent(layers, *layers.run_dimension)) - 1;
+    for (std::size_t r = 0; r < layers.runs.size(); ++r) {
+      auto& run = layers.runs[r];
+      if (run.is_empty()) continue;
+      const auto& next = next_runs(layers, r);
       // Within a run, one arc may follow another up to the top.
-      if (std::ranges::find(next, run) != next.end()) layers.reaches[run].last = top;
+      if (std::ranges::find(next, r) != next.end()) run.last = static_cast<std::uint32_t>(top);
       for (std::uint32_t c = 0; c < layers.class_count; ++c) {
-        if (!next[c] || *next[c] == run) continue;
-        const auto used = static_cast<std::uint64_t>(layers.uses_of(c)[*layers.run_dimension]);
-        const std::uint64_t first = layers.reaches[run].first + used;
-        const std::uint64_t last = std::min<std::uint64_t>(top, layers.reaches[run].last + used);
-        if (first > top) continue;
-        auto& further = layers.reaches[*next[c]];
-        further.first = std::min(further.first, static_cast<std::uint32_t>(first));
-        further.last = std::max(further.last, static_cast<std::uint32_t>(last));
+        if (!next[c] || *next[c] == r) continue;
+        const std::int64_t used = layers.uses_of(c)[*layers.run_dimension];
+        widen(layers.runs[*next[c]], run.first + used, std::min(top, run.last + used));
       }
     }
+  }
+
+  /// Keeps of the runs what paths may end from or leave from, and gives them their rows. False
+  /// where there are too many.
+  bool start_runs(std::size_t z) {
+    ZoneLayers& layers = plan_.zones[z];
+    const auto ends = spread_backwards(z);
+    std::uint64_t rows = 0;
+    for (std::size_t r = 0; r < layers.runs.size(); ++r) {
+      auto& run = layers.runs[r];
+      run.first = std::max(run.first, ends[r].first);
+      run.last = std::min(run.last, ends[r].last);
+      run.start = static_cast<Row>(rows + kRunMargin);
+      if (!run.is_empty()) rows += run.last - run.first + 1 + 2 * kRunMargin;
+      if (rows > max_values_ || rows >= kNoRow) return false;
+    }
+    layers.row_count = static_cast<Row>(rows);
+    return true;
+  }
+
+  /// By run: between which offsets a path may end or leave the zone, now or later.
+  std::vector<ZoneLayers::Run> spread_backwards(std::size_t z) {
+    const ZoneLayers& layers = plan_.zones[z];
+    std::vector<ZoneLayers::Run> ends(layers.runs.size());
+    std::vector<Amount> amounts(graph_.dimension_count);
+    for (std::size_t r = layers.runs.size(); r-- > 0;) {
+      if (layers.runs[r].is_empty()) continue;
+      layers.amounts_of(r, amounts);
+      widen_to_ends(z, amounts, ends[r]);
+      const auto& next = next_runs(layers, r);
+      for (std::uint32_t c = 0; c < layers.class_count; ++c) {
+        if (!next[c] || *next[c] == r || ends[*next[c]].is_empty()) continue;
+        const std::int64_t used = layers.uses_of(c)[*layers.run_dimension];
+        widen(ends[r], std::max<std::int64_t>(0, ends[*next[c]].first - used),
+              ends[*next[c]].last - used);
+      }
+      const bool climbs = std::ranges::find(next, r) != next.end();
+      if (climbs && !ends[r].is_empty()) ends[r].first = 0;
+    }
+    return ends;
+  }
+
+  /// Ends in this run: at exits, and where links may be followed. `amounts`: of its cell.
+  void widen_to_ends(std::size_t z, std::span<const Amount> amounts, ZoneLayers::Run& run) const {
+    const ZoneLayers& layers = plan_.zones[z];
+    const Zone& zone = graph_.zones[z];
+    const std::uint32_t inner = *layers.run_dimension;
+    const std::int64_t top = static_cast<std::int64_t>(extent(layers, inner)) - 1;
+    const auto asked = [&](auto is_asked) {
+      for (std::uint32_t d = 0; d < graph_.dimension_count; ++d)
+        if (d != inner && is_asked(d) && amounts[d] < zone.bounds[d].min) return;
+      const std::int64_t least =
+          is_asked(inner) ? std::int64_t{zone.bounds[inner].min} - layers.lowest[inner] : 0;
+      widen(run, std::max<std::int64_t>(least, 0), top);
+    };
+    const auto exit = std::ranges::lower_bound(graph_.exits, zone.first_node, {}, &Terminal::node);
+    if (exit != graph_.exits.end() && exit->node < zone.first_node + zone.size)
+      asked([](std::uint32_t) { return true; });
+    for (std::size_t t = 0; t < layers.targets.size(); ++t) {
+      if (t > 0 && layers.target_zones[t] == layers.target_zones[t - 1]) continue;
+      asked(
+          [&](std::uint32_t d) -> bool { return graph_.zones[layers.target_zones[t]].resets[d]; });
+    }
+  }
+
+  /// By class: the run that it leads to.
+  const std::vector<std::optional<std::size_t>>& next_runs(const ZoneLayers& layers,
+                                                           std::size_t run) const {
+    amounts_.resize(graph_.dimension_count);
+    next_runs_.resize(layers.class_count);
+    layers.amounts_of(run, amounts_);
+    for (std::uint32_t c = 0; c < layers.class_count; ++c)
+      next_runs_[c] = layers.run_after(amounts_, c);
+    return next_runs_;
   }
 
   /// Follows the zone's uses from marked cell to marked cell, and numbers the cells.
@@ -289,6 +350,7 @@ class Planner {
     const ZoneLayers& layers = plan_.zones[z];
     const std::size_t width = graph_.dimension_count;
     std::vector<Amount> amounts(width);
+    std::vector<Amount> carry(width);
     std::vector<Amount> carried;  // `count` vectors one after the other, neighbours distinct
     std::size_t count = 0;
     for (std::size_t t = 0; t < layers.targets.size(); ++t) {
@@ -297,13 +359,13 @@ class Planner {
       if (t == 0 || next != layers.target_zones[t - 1]) {
         carried.clear();
         count = 0;
-        layers.for_each_row([&](Row row) {
-          layers.consumed(row, amounts);
-          if (!carry_over(graph_.zones[z], graph_.zones[next], amounts)) return;
-          if (count > 0 && std::equal(amounts.begin(), amounts.end(),
+        layers.for_each_row(amounts, [&](Row) {
+          carry = amounts;
+          if (!carry_over(graph_.zones[z], graph_.zones[next], carry)) return;
+          if (count > 0 && std::equal(carry.begin(), carry.end(),
                                       carried.end() - static_cast<std::ptrdiff_t>(width)))
             return;
-          carried.insert(carried.end(), amounts.begin(), amounts.end());
+          carried.insert(carried.end(), carry.begin(), carry.end());
           ++count;
         });
       }
@@ -317,13 +379,15 @@ class Planner {
   std::uint64_t max_values_;
   std::uint64_t cells_ = 0;
   LayerPlan plan_;
+  mutable std::vector<Amount> amounts_;                        ///< scratch
+  mutable std::vector<std::optional<std::size_t>> next_runs_;  ///< scratch
 };
 
 }  // namespace
 
 std::optional<std::size_t> ZoneLayers::cell_after(std::span<const Amount> consumed,
                                                   std::span<const Amount> used) const {
-  std::size_t cell = run_dimension ? kRunMargin : 0;
+  std::size_t cell = 0;
   for (std::size_t d = 0; d < consumed.size(); ++d) {
     std::int64_t sum = std::int64_t{consumed[d]} + used[d];
     if (sum > highest[d]) {
@@ -340,6 +404,12 @@ Row ZoneLayers::row_after(std::span<const Amount> consumed, std::span<const Amou
   if (row_count == 0) return kNoRow;
   const auto cell = cell_after(consumed, used);
   if (!cell) return kNoRow;
+  if (run_dimension) {
+    const std::uint32_t d = *run_dimension;
+    const std::int64_t offset = std::int64_t{consumed[d]} + used[d] - lowest[d];
+    const Run& run = runs[*cell];
+    return run.has(offset) ? run.start + static_cast<Row>(offset - run.first) : kNoRow;
+  }
   return row_of_cell.empty() ? static_cast<Row>(*cell) : row_of_cell[*cell];
 }
 
@@ -357,23 +427,32 @@ std::optional<std::size_t> ZoneLayers::run_after(std::span<const Amount> consume
     if (sum < lowest[d]) return std::nullopt;
     cell += static_cast<std::size_t>(sum - lowest[d]) * step[d];
   }
-  return cell / run_stride;
+  return cell;
+}
+
+void ZoneLayers::amounts_of(std::size_t cell, std::span<Amount> amounts) const {
+  for (std::size_t d = 0; d < amounts.size(); ++d) {
+    amounts[d] = lowest[d] + (step[d] > 0 ? static_cast<Amount>(cell / step[d]) : 0);
+    if (step[d] > 0) cell %= step[d];
+  }
 }
 
 void ZoneLayers::consumed(Row row, std::span<Amount> amounts) const {
-  std::size_t cell = cell_of_row.empty() ? row : cell_of_row[row];
-  for (const std::uint32_t d : order) {
-    amounts[d] = lowest[d] + static_cast<Amount>(cell / step[d]);
-    cell %= step[d];
+  if (!run_dimension) {
+    amounts_of(cell_of_row.empty() ? row : cell_of_row[row], amounts);
+    return;
   }
-  if (run_dimension) amounts[*run_dimension] -= static_cast<Amount>(kRunMargin);
+  const auto after = std::ranges::upper_bound(runs, row, {}, &Run::start);
+  const Run& run = *(after - 1);
+  amounts_of(static_cast<std::size_t>(after - runs.begin()) - 1, amounts);
+  amounts[*run_dimension] += static_cast<Amount>(run.first + (row - run.start));
 }
 
 std::uint64_t ZoneLayers::reached_rows() const {
   if (!run_dimension) return row_count;
   std::uint64_t rows = 0;
-  for (const Reach& reach : reaches)
-    if (!reach.is_empty()) rows += reach.last - reach.first + 1;
+  for (const Run& run : runs)
+    if (!run.is_empty()) rows += run.last - run.first + 1;
   return rows;
 }
 

@@ -22,30 +22,31 @@ inline constexpr Amount kLeastRunUse = 4;
 /// The consumed vectors that paths may have inside one zone, and what the zone's arcs and links add
 /// to them.
 ///
-/// Rows ascend lexicographically, by the dimension with the largest step first. In a zone of runs,
-/// one dimension of which every arc uses at least `least_use` comes last: neighbouring rows differ
-/// in it by one quantum, and those nearer than `least_use` do not depend on each other. A run has
-/// kRunMargin rows more at both ends. In other zones rows number what can be reached of the box.
+/// Rows ascend lexicographically, the first dimension first. In a zone of runs,
+/// one dimension of which every arc uses at least `least_use` comes last instead: neighbouring rows
+/// differ in it by one quantum, and those nearer than `least_use` do not depend on each other. A
+/// run has the rows that a path can come to and can end from, and kRunMargin more at both ends. In
+/// other zones rows number what can be reached of the box.
 struct ZoneLayers {
-  std::vector<Amount> lowest;        ///< by dimension: the least amount that a path may have here
-  std::vector<Amount> highest;       ///< the largest from which a path may still end
-  std::vector<bool> saturates;       ///< larger amounts count as `highest`: nothing bounds them
-  std::vector<std::size_t> step;     ///< by dimension: cells per quantum
-  std::vector<std::uint32_t> order;  ///< the dimensions by descending step
-  Row row_count = 0;                 ///< 0: no path comes here, or none ends from here
-  std::vector<Row> row_of_cell;      ///< empty: every cell is a row
+  std::vector<Amount> lowest;     ///< by dimension: the least amount that a path may have here
+  std::vector<Amount> highest;    ///< the largest from which a path may still end
+  std::vector<bool> saturates;    ///< larger amounts count as `highest`: nothing bounds them
+  std::vector<std::size_t> step;  ///< by dimension: cells per quantum; 0: of runs
+  Row row_count = 0;              ///< 0: no path comes here, or none ends from here
+  std::vector<Row> row_of_cell;   ///< empty: every cell is a row
   std::vector<std::uint32_t> cell_of_row;  ///< empty: every cell is a row
 
   std::optional<std::uint32_t> run_dimension;  ///< of a zone of runs
   Amount least_use = 0;
-  std::size_t run_stride = 0;  ///< rows from one run to the next
-  /// By run: the offsets between which it can be reached.
-  struct Reach {
+  /// Offsets first .. last: the amount less `lowest`; none where `first` exceeds `last`.
+  struct Run {
     std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t last = 0;
+    Row start = 0;  ///< the row of `first`
     [[nodiscard]] bool is_empty() const { return first > last; }
+    [[nodiscard]] bool has(std::int64_t offset) const { return offset >= first && offset <= last; }
   };
-  std::vector<Reach> reaches;
+  std::vector<Run> runs;  ///< of a zone of runs, by cell
 
   std::vector<Amount> class_uses;       ///< classes x dimensions: the distinct uses of its arcs
   std::vector<std::uint32_t> class_of;  ///< by head, or by arc where arcs have uses of their own
@@ -65,26 +66,30 @@ struct ZoneLayers {
   [[nodiscard]] std::optional<std::size_t> run_after(std::span<const Amount> consumed,
                                                      std::uint32_t c) const;
   void consumed(Row row, std::span<Amount> amounts) const;
-  [[nodiscard]] Row first_row_of_run(std::size_t run) const {
-    return static_cast<Row>(run * run_stride + kRunMargin);
-  }
+  /// The amounts of a cell; in the run dimension the lowest.
+  void amounts_of(std::size_t cell, std::span<Amount> amounts) const;
   /// The uses of a class, by dimension.
   [[nodiscard]] std::span<const Amount> uses_of(std::size_t c) const {
     return {class_uses.data() + c * highest.size(), highest.size()};
   }
   /// How many rows can be reached.
   [[nodiscard]] std::uint64_t reached_rows() const;
-  /// Calls `visit(row)` for all of them, ascending.
+  /// Calls `visit(row)` for all of them, ascending, with what has been consumed in `amounts`.
   template <class Visit>
-  void for_each_row(Visit visit) const {
-    if (!run_dimension) {
-      for (Row row = 0; row < row_count; ++row) visit(row);
-      return;
+  void for_each_row(std::span<Amount> amounts, Visit visit) const {
+    for (Row row = 0; !run_dimension && row < row_count; ++row) {
+      consumed(row, amounts);
+      visit(row);
     }
-    for (std::size_t run = 0; run < reaches.size(); ++run)
-      for (std::uint32_t offset = reaches[run].first;
-           !reaches[run].is_empty() && offset <= reaches[run].last; ++offset)
-        visit(first_row_of_run(run) + offset);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      if (runs[r].is_empty()) continue;
+      amounts_of(r, amounts);
+      amounts[*run_dimension] += static_cast<Amount>(runs[r].first);
+      for (std::uint32_t k = 0; k <= runs[r].last - runs[r].first; ++k) {
+        visit(runs[r].start + k);
+        ++amounts[*run_dimension];
+      }
+    }
   }
 };
 

@@ -1,6 +1,8 @@
 #include "sequences/path_enumeration.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "core/failure.h"
 
@@ -13,6 +15,8 @@ constexpr std::uint32_t kUnknownList = std::numeric_limits<std::uint32_t>::max()
 constexpr std::size_t kGrowth = 4;
 /// A pass may find so many times as many paths as it aimed at before its threshold is lowered.
 constexpr std::size_t kTolerance = 8;
+/// The ways beyond the threshold of which costs are noted at each state.
+constexpr std::uint32_t kNotedCuts = 4;
 
 }  // namespace
 
@@ -65,8 +69,10 @@ std::uint32_t PathEnumeration::list_of(StateId state) {
   list.first = continuations_.size();
   list.beyond = space_.continue_from(state, max_slack_, continuations_);
   list.count = static_cast<std::uint32_t>(continuations_.size() - list.first);
-  while (list.best < list.count && continuations_[list.first + list.best].slack > 0) ++list.best;
-  expects(list.best < list.count, "a state's best path goes on");
+  const auto ways = std::span(continuations_).subspan(list.first);
+  for (std::uint32_t i = 0; i < list.count; ++i) ways[i].ordinal = i;
+  std::ranges::sort(ways, {}, [](const Continuation& c) { return std::pair(c.slack, c.ordinal); });
+  expects(list.count > 0 && ways.front().slack == 0, "a state's best path goes on");
   lists_.push_back(list);
   return static_cast<std::uint32_t>(lists_.size() - 1);
 }
@@ -100,20 +106,45 @@ void PathEnumeration::begin_pass(Cost threshold) {
   }
   cuts_.clear();
   worst_cut_ = std::numeric_limits<Cost>::max();
-  frames_.assign(1, Frame{kPathStart, list_of(kPathStart), 0, best_});
+  frames_.clear();
+  push_frame(kPathStart, list_of(kPathStart), best_);
+}
+
+/// Counts the ways within the threshold, and notes the next ones.
+void PathEnumeration::push_frame(StateId state, std::uint32_t list, Cost cost) {
+  Frame frame{state, cost, list};
+  const List& ways = lists_[list];
+  const Continuation* way = continuations_.data() + ways.first;
+  while (frame.allowed < ways.count && cost + way[frame.allowed].slack <= threshold_)
+    ++frame.allowed;
+  const std::uint32_t noted = std::min(ways.count, frame.allowed + kNotedCuts);
+  for (std::uint32_t i = frame.allowed; i < noted; ++i) note_cut(cost + way[i].slack);
+  if (noted == ways.count && ways.beyond) note_cut(cost + *ways.beyond);
+  frames_.push_back(frame);
+}
+
+/// The next way in the order of steps; false where all are done.
+bool PathEnumeration::choose(Frame& frame) const {
+  const Continuation* ways = continuations_.data() + lists_[frame.list].first;
+  std::uint32_t least = kUnknownList;
+  for (std::uint32_t i = 0; i < frame.allowed; ++i) {
+    if (ways[i].ordinal < frame.next_ordinal || ways[i].ordinal >= least) continue;
+    least = ways[i].ordinal;
+    frame.chosen = i;
+  }
+  frame.next_ordinal = least + 1;
+  return least != kUnknownList;
 }
 
 /// Goes on to the next path within the threshold, in lexicographic order.
 bool PathEnumeration::advance() {
   while (!frames_.empty()) {
     Frame& frame = frames_.back();
-    const List& list = lists_[frame.list];
-    if (frame.next == list.count) {
-      if (list.beyond) note_cut(frame.cost + *list.beyond);
+    if (!choose(frame)) {
       frames_.pop_back();
       continue;
     }
-    const std::size_t chosen = list.first + frame.next++;
+    const std::size_t chosen = lists_[frame.list].first + frame.chosen;
     const Cost cost = frame.cost + continuations_[chosen].slack;
     if (cost > threshold_) {
       note_cut(cost);
@@ -125,7 +156,7 @@ bool PathEnumeration::advance() {
       return true;
     }
     const StateId to = continuations_[chosen].to;
-    frames_.push_back(Frame{to, follow(chosen), 0, cost});
+    push_frame(to, follow(chosen), cost);
   }
   return false;
 }
@@ -134,7 +165,7 @@ bool PathEnumeration::advance() {
 void PathEnumeration::note_cut(Cost cost) {
   if (cost >= worst_cut_) return;
   cuts_.push_back(cost);
-  const std::size_t kept = limits_.batch_paths;
+  const std::size_t kept = std::min(kGrowth * target_, limits_.batch_paths);  // the next target
   if (cuts_.size() < 2 * kept) return;
   std::ranges::nth_element(cuts_, cuts_.begin() + static_cast<std::ptrdiff_t>(kept - 1));
   cuts_.resize(kept);
@@ -181,9 +212,8 @@ void PathEnumeration::collect(Cost above, std::size_t limit) {
 void PathEnumeration::add_record() {
   Record record{found_, deviations_.size(), 0};
   for (std::size_t depth = 0; depth < frames_.size(); ++depth) {
-    const std::uint32_t ordinal = frames_[depth].next - 1;
-    if (ordinal == lists_[frames_[depth].list].best) continue;
-    deviations_.push_back({static_cast<std::uint32_t>(depth), ordinal});
+    if (frames_[depth].chosen == 0) continue;
+    deviations_.push_back({static_cast<std::uint32_t>(depth), frames_[depth].chosen});
     ++record.count;
   }
   records_.push_back(record);
@@ -220,7 +250,7 @@ void PathEnumeration::write_stack(SequencePath& path) const {
   path.steps.clear();
   for (std::size_t depth = 0; depth + 1 < frames_.size(); ++depth)
     path.steps.push_back(
-        continuations_[lists_[frames_[depth].list].first + frames_[depth].next - 1].step);
+        continuations_[lists_[frames_[depth].list].first + frames_[depth].chosen].step);
 }
 
 void PathEnumeration::write_record(const Record& record, SequencePath& path) {
@@ -230,10 +260,10 @@ void PathEnumeration::write_record(const Record& record, SequencePath& path) {
   std::size_t deviation = record.first;
   const std::size_t end = record.first + record.count;
   for (std::uint32_t depth = 0;; ++depth) {
-    std::uint32_t ordinal = lists_[list].best;
+    std::uint32_t way = 0;
     if (deviation < end && deviations_[deviation].depth == depth)
-      ordinal = deviations_[deviation++].ordinal;
-    const std::size_t chosen = lists_[list].first + ordinal;
+      way = deviations_[deviation++].way;
+    const std::size_t chosen = lists_[list].first + way;
     if (continuations_[chosen].to == kPathEnd) return;
     path.steps.push_back(continuations_[chosen].step);
     list = follow(chosen);

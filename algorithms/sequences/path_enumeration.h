@@ -21,7 +21,9 @@ struct Continuation {
   StateId to = kPathEnd;
   Cost slack = 0;  ///< how much dearer the best path by this way is than the best path from here
   Step step;       ///< unless the path ends
-  std::uint32_t list = std::numeric_limits<std::uint32_t>::max();  ///< for `PathEnumeration`
+  // For `PathEnumeration`, which sorts the ways by slack:
+  std::uint32_t list = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t ordinal = 0;  ///< in the order of steps
 };
 
 /// States with exact costs-to-go.
@@ -67,21 +69,23 @@ class PathEnumeration {
 
  private:
   enum class Mode { kTies, kBatch, kDone };
+  /// The ways to go on from a state by (slack, step): the first is the best completion's.
   struct List {
     std::size_t first = 0;
     std::uint32_t count = 0;
-    std::uint32_t best = 0;  ///< the first without slack
     std::optional<Cost> beyond;
   };
   struct Frame {
     StateId state = kPathStart;
-    std::uint32_t list = 0;
-    std::uint32_t next = 0;
     Cost cost = 0;  ///< of the best path that begins as the frames up to this one say
+    std::uint32_t list = 0;
+    std::uint32_t allowed = 0;       ///< how many ways are within the threshold
+    std::uint32_t chosen = 0;        ///< the way that is being followed
+    std::uint32_t next_ordinal = 0;  ///< ways before this one are done
   };
   struct Deviation {
     std::uint32_t depth = 0;
-    std::uint32_t ordinal = 0;
+    std::uint32_t way = 0;
   };
   struct Record {
     Cost cost = 0;
@@ -93,6 +97,8 @@ class PathEnumeration {
   std::uint32_t follow(std::size_t continuation);
   void forget_lists();
   void begin_pass(Cost threshold);
+  void push_frame(StateId state, std::uint32_t list, Cost cost);
+  bool choose(Frame& frame) const;
   bool advance();
   void note_cut(Cost cost);
   void begin_next();

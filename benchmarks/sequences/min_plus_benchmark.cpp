@@ -43,8 +43,9 @@ constexpr std::size_t kLoadedValues = 2048;
 constexpr std::uint64_t kRounds = 4096;
 
 #if defined(__x86_64__)
+template <bool kLoads>
 __attribute__((target("avx2"))) std::uint64_t relax_avx2(const std::int32_t* loaded,
-                                                         std::size_t mask, std::int32_t* out) {
+                                                         std::int32_t* out) {
   __m256i least[kChains];
   __m256i sum = _mm256_set1_epi32(*out);
   for (auto& chain : least) chain = sum;
@@ -53,8 +54,9 @@ __attribute__((target("avx2"))) std::uint64_t relax_avx2(const std::int32_t* loa
     sum = _mm256_add_epi32(sum, one);
 #pragma GCC unroll 8
     for (std::size_t c = 0; c < kChains; ++c) {
-      const auto* from = reinterpret_cast<const __m256i*>(loaded + ((round * 64) & mask) + c * 8);
-      const __m256i value = mask > 0 ? _mm256_loadu_si256(from) : least[(c + 1) % kChains];
+      const auto* from =
+          reinterpret_cast<const __m256i*>(loaded + ((round * 64) % kLoadedValues) + c * 8);
+      const __m256i value = kLoads ? _mm256_loadu_si256(from) : least[(c + 1) % kChains];
       least[c] = _mm256_min_epi32(least[c], _mm256_add_epi32(sum, value));
     }
   }
@@ -63,8 +65,9 @@ __attribute__((target("avx2"))) std::uint64_t relax_avx2(const std::int32_t* loa
   return kRounds * kChains * 8;
 }
 
+template <bool kLoads>
 __attribute__((target("avx512f"))) std::uint64_t relax_avx512(const std::int32_t* loaded,
-                                                              std::size_t mask, std::int32_t* out) {
+                                                              std::int32_t* out) {
   __m512i least[kChains];
   __m512i sum = _mm512_set1_epi32(*out);
   for (auto& chain : least) chain = sum;
@@ -73,8 +76,9 @@ __attribute__((target("avx512f"))) std::uint64_t relax_avx512(const std::int32_t
     sum = _mm512_add_epi32(sum, one);
 #pragma GCC unroll 8
     for (std::size_t c = 0; c < kChains; ++c) {
-      const __m512i value = mask > 0 ? _mm512_loadu_si512(loaded + ((round * 128) & mask) + c * 16)
-                                     : least[(c + 1) % kChains];
+      const __m512i value =
+          kLoads ? _mm512_loadu_si512(loaded + ((round * 128) % kLoadedValues) + c * 16)
+                 : least[(c + 1) % kChains];
       const __m512i other = _mm512_add_epi32(sum, value);
       least[c] = _mm512_mask_min_epi32(least[c], 0xFFFF, least[c], other);
     }
@@ -85,24 +89,25 @@ __attribute__((target("avx512f"))) std::uint64_t relax_avx512(const std::int32_t
 }
 #endif
 
-/// Additions and minima: of registers alone with `mask` 0, else each with a load.
-std::uint64_t relax(InstructionSet set, const std::int32_t* loaded, std::size_t mask,
-                    std::int32_t* out) {
+/// Additions and minima: of registers alone, or each with a load.
+template <bool kLoads>
+std::uint64_t relax(InstructionSet set, const std::int32_t* loaded, std::int32_t* out) {
 #if defined(__x86_64__)
-  if (set == InstructionSet::kAvx512) return relax_avx512(loaded, mask, out);
-  if (set == InstructionSet::kAvx2) return relax_avx2(loaded, mask, out);
+  if (set == InstructionSet::kAvx512) return relax_avx512<kLoads>(loaded, out);
+  if (set == InstructionSet::kAvx2) return relax_avx2<kLoads>(loaded, out);
 #endif
   return 0;
 }
 
-void bound(benchmark::State& state, std::size_t mask) {
+template <bool kLoads>
+void bound(benchmark::State& state) {
   InstructionSet set{};
   if (!select(state, set)) return;
   std::vector<std::int32_t> loaded(kLoadedValues + 128, 5);
   std::vector<std::int32_t> out(16, 0);
   std::uint64_t relaxed = 0;
   for (auto _ : state) {
-    relaxed += relax(set, loaded.data(), mask, out.data());
+    relaxed += relax<kLoads>(set, loaded.data(), out.data());
     benchmark::ClobberMemory();
   }
   state.counters["relaxations"] =
@@ -110,9 +115,9 @@ void bound(benchmark::State& state, std::size_t mask) {
 }
 
 /// What is never exceeded: additions and minima of registers.
-void arithmetic_bound(benchmark::State& state) { bound(state, 0); }
+void arithmetic_bound(benchmark::State& state) { bound<false>(state); }
 /// With one register loaded from the first-level cache for each: a kernel without tiles.
-void load_bound(benchmark::State& state) { bound(state, kLoadedValues - 1); }
+void load_bound(benchmark::State& state) { bound<true>(state); }
 
 /// The kernel alone, on blocks in the first-level cache.
 void product(benchmark::State& state) {
