@@ -5,6 +5,7 @@
 #include "sequences/compiled_problem.h"
 #include "sequences/support/brute_force.h"
 #include "sequences/support/random_problems.h"
+#include "sequences/support/structure_brute_force.h"
 #include "support/property.h"
 
 namespace plat::sequences {
@@ -16,6 +17,7 @@ using plat::testing::k_best_paths;
 using plat::testing::property_rng;
 using plat::testing::random_plain_problem;
 using plat::testing::random_search_graph;
+using plat::testing::random_structure_problem;
 using plat::testing::why_not_in_contract;
 
 /// A graph, the best k of its paths, and what kind of case that is.
@@ -34,9 +36,25 @@ std::size_t random_k(Rng& rng) {
   return kNumbers[rng.index(kNumbers.size())];
 }
 
-Case random_case(Rng& rng, bool is_plain) {
+/// Where random graphs come from.
+enum class Source { kPlain, kZones, kStructures };
+constexpr std::array<std::string_view, 3> kSourceNames{"plain", "zones", "structures"};
+
+SearchGraph random_graph(Rng& rng, Source source) {
+  switch (source) {
+    case Source::kPlain:
+      return compile(random_plain_problem(rng)).graph;
+    case Source::kZones:
+      return random_search_graph(rng);
+    case Source::kStructures:
+      return compile(random_structure_problem(rng, {.segments = 3})).graph;
+  }
+  return {};
+}
+
+Case random_case(Rng& rng, Source source) {
   Case out;
-  out.graph = is_plain ? compile(random_plain_problem(rng)).graph : random_search_graph(rng);
+  out.graph = random_graph(rng, source);
   validate(out.graph);
   out.k = random_k(rng);
   out.best = k_best_paths(out.graph, out.k);
@@ -60,31 +78,37 @@ struct Tally {
     of_several_zones +=
         !one.best.empty() && one.graph.zone_of(one.best.front().steps.back().node) > 0 ? 1 : 0;
   }
-  void expect_enough(bool is_plain) const {
+  void expect_enough(Source source) const {
     EXPECT_GT(4 * feasible, cases);
     EXPECT_GT(10 * infeasible, cases);
     EXPECT_GT(8 * with_ties, cases);
     EXPECT_GT(15 * beyond_the_last, cases);
-    if (!is_plain) {
+    if (source != Source::kPlain) {
       EXPECT_GT(8 * of_several_zones, cases);
     }
   }
 };
 
-/// Calls `check(case)` for many random cases, half of them plain sequences.
+/// Fewer cases than this may all be of one kind by chance.
+constexpr int kEnoughToTell = 100;
+
+/// Calls `check(case)` for many random cases from each source.
 template <class Check>
 void for_random_cases(const std::string& name, int count, Check check) {
-  for (const bool is_plain : {true, false}) {
-    Rng rng = property_rng(name + (is_plain ? ".plain" : ".zones"));
+  for (const Source source : {Source::kPlain, Source::kZones, Source::kStructures}) {
+    const std::string_view source_name = kSourceNames[static_cast<std::size_t>(source)];
+    Rng rng = property_rng(fmt::format("{}.{}", name, source_name));
     Tally tally;
-    for (int i = 0; i < count; ++i) {
-      const Case one = random_case(rng, is_plain);
+    // Structures are larger: fewer of them take as long.
+    const int share = source == Source::kStructures ? count / 5 : count;
+    for (int i = 0; i < share; ++i) {
+      const Case one = random_case(rng, source);
       tally.add(one);
-      SCOPED_TRACE(fmt::format("{} case {}, k = {}", is_plain ? "plain" : "zones", i, one.k));
+      SCOPED_TRACE(fmt::format("{} case {}, k = {}", source_name, i, one.k));
       check(one);
       if (::testing::Test::HasFailure()) return;
     }
-    tally.expect_enough(is_plain);
+    if (share >= kEnoughToTell) tally.expect_enough(source);
   }
 }
 
@@ -94,7 +118,7 @@ TEST(SequenceOracles, FindTheSameCostsByEnumerationAndByDynamicProgramme) {
   int enumerated = 0;
   int complete = 0;
   int cases = 0;
-  for_random_cases("oracles", iterations(1000), [&](const Case& one) {
+  for_random_cases("oracles", iterations(400), [&](const Case& one) {
     ++cases;
     const auto all = enumerate_paths(one.graph, one.k);
     if (!all) return;
@@ -186,7 +210,7 @@ int objections(Fault fault) {
   Rng rng = property_rng("twins");
   int count = 0;
   for (int i = 0; i < 80; ++i) {
-    Case one = random_case(rng, i % 2 == 0);
+    Case one = random_case(rng, i % 2 == 0 ? Source::kPlain : Source::kZones);
     one.k = std::min<std::size_t>(one.k, 60);
     one.best.resize(std::min(one.best.size(), one.k));
     count += why_not_in_contract(Twin{fault}, one.graph, one.best, one.k).empty() ? 0 : 1;
@@ -220,7 +244,7 @@ TEST(SequenceContract, HoldsForEveryStrategyOnRandomProblems) {
   const auto& menu = sequence_searches();
   std::map<std::string, int> gave_up;
   int cases = 0;
-  for_random_cases("contract", iterations(1500), [&](const Case& one) {
+  for_random_cases("contract", iterations(750), [&](const Case& one) {
     ++cases;
     for (const std::string& name : menu.names()) {
       const auto wrong = why_not_in_contract(impatient(name), one.graph, one.best, one.k);
@@ -235,7 +259,7 @@ TEST(SequenceContract, HoldsForEveryStrategyOnRandomProblems) {
 
 TEST(SequenceContract, GivesTheSamePathsTwice) {
   const auto& menu = sequence_searches();
-  for_random_cases("twice", iterations(200), [&](const Case& one) {
+  for_random_cases("twice", iterations(60), [&](const Case& one) {
     for (const std::string& name : menu.names()) {
       std::vector<std::vector<Step>> runs[2];
       for (auto& steps : runs) {
@@ -259,7 +283,7 @@ TEST(SequenceContract, StrategiesAgreeOnLargerProblems) {
   Rng rng = property_rng("larger");
   const auto& menu = sequence_searches();
   int found = 0;
-  for (int i = 0; i < iterations(60); ++i) {
+  for (int i = 0; i < iterations(30); ++i) {
     const auto graph =
         compile(random_plain_problem(rng, {.elements = 14, .resources = 2, .amount = 60, .use = 9}))
             .graph;
@@ -276,7 +300,7 @@ TEST(SequenceContract, StrategiesAgreeOnLargerProblems) {
         ASSERT_EQ((*paths)[p].cost, best[p].cost) << name << ", case " << i << ", path " << p;
     }
   }
-  EXPECT_GT(found, iterations(60) / 4);
+  EXPECT_GT(found, iterations(30) / 4);
 }
 
 }  // namespace
