@@ -52,6 +52,7 @@ TEST(Mesh, EveryDefectIsFound) {
   bad = box;
   bad.faces.insert(bad.faces.end(), box.faces.begin(), box.faces.end());
   EXPECT_EQ(kind_of(bad), MeshDefectKind::kNotManifold);
+  EXPECT_NE(find_defect(bad)->message.find("has 4 faces"), std::string::npos);
   bad = box;
   std::swap(bad.faces[0].vertices[1], bad.faces[0].vertices[2]);
   EXPECT_EQ(kind_of(bad), MeshDefectKind::kNotOriented);

@@ -149,8 +149,6 @@ std::string refusal(const ScratchFolder& scratch, const std::string& file,
 
 TEST(PartDatabase, ATableOfOtherPartsIsRefused) {
   const ScratchFolder scratch;
-  EXPECT_EQ(refusal(scratch, "parts.json", [](ordered_json&) {}).substr(0, 4).find("read"),
-            std::string::npos);
   const auto changed = [](ordered_json& json) { json["parts"][0]["attributes"]["windows"] = 3; };
   EXPECT_NE(refusal(scratch, "parts.json", changed).find("made of other parts"), std::string::npos);
   write_part_database(small_database(), scratch.file("db"));
