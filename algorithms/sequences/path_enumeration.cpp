@@ -67,7 +67,7 @@ std::uint32_t PathEnumeration::list_of(StateId state) {
   if (!is_new) return known->second;
   List list;
   list.first = continuations_.size();
-  list.beyond = space_.continue_from(state, max_slack_, continuations_);
+  list.beyond = space_.continue_from(state, max_slack_, continuations_).value_or(kNever);
   list.count = static_cast<std::uint32_t>(continuations_.size() - list.first);
   const auto ways = std::span(continuations_).subspan(list.first);
   for (std::uint32_t i = 0; i < list.count; ++i) ways[i].ordinal = i;
@@ -77,18 +77,42 @@ std::uint32_t PathEnumeration::list_of(StateId state) {
   return static_cast<std::uint32_t>(lists_.size() - 1);
 }
 
-/// The list of the state that a continuation leads to.
+/// The list of the state that a continuation leads to. May forget all other lists.
 std::uint32_t PathEnumeration::follow(std::size_t continuation) {
-  if (continuations_[continuation].list != kUnknownList) return continuations_[continuation].list;
+  if (continuations_.size() <= limits_.list_entries) return list_behind(continuation);
   const StateId to = continuations_[continuation].to;
-  if (continuations_.size() > limits_.list_entries) {
-    forget_lists();
-    for (Frame& frame : frames_) frame.list = list_of(frame.state);
-    return list_of(to);
-  }
-  const std::uint32_t list = list_of(to);
+  forget_lists();
+  for (Frame& frame : frames_) frame.list = list_of(frame.state);
+  return list_of(to);
+}
+
+std::uint32_t PathEnumeration::list_behind(std::size_t continuation) {
+  if (continuations_[continuation].list != kUnknownList) return continuations_[continuation].list;
+  const std::uint32_t list = list_of(continuations_[continuation].to);
   continuations_[continuation].list = list;
   return list;
+}
+
+/// How much dearer than the best completion any other path from here is.
+Cost PathEnumeration::apart(std::uint32_t list) {
+  chain_.clear();
+  Cost least = kNever;
+  while (true) {
+    if (lists_[list].apart != kUnknown) {
+      least = lists_[list].apart;
+      break;
+    }
+    chain_.push_back(list);
+    const std::size_t best = lists_[list].first;
+    if (continuations_[best].to == kPathEnd) break;
+    list = list_behind(best);
+  }
+  for (std::size_t i = chain_.size(); i-- > 0;) {
+    List& here = lists_[chain_[i]];
+    least = std::min(least, here.count > 1 ? continuations_[here.first + 1].slack : here.beyond);
+    here.apart = least;
+  }
+  return least;
 }
 
 void PathEnumeration::forget_lists() {
@@ -119,7 +143,7 @@ void PathEnumeration::push_frame(StateId state, std::uint32_t list, Cost cost) {
     ++frame.allowed;
   const std::uint32_t noted = std::min(ways.count, frame.allowed + kNotedCuts);
   for (std::uint32_t i = frame.allowed; i < noted; ++i) note_cut(cost + way[i].slack);
-  if (noted == ways.count && ways.beyond) note_cut(cost + *ways.beyond);
+  if (noted == ways.count && ways.beyond < kNever) note_cut(cost + ways.beyond);
   frames_.push_back(frame);
 }
 
@@ -151,12 +175,17 @@ bool PathEnumeration::advance() {
       continue;
     }
     ++steps_taken_;
-    if (continuations_[chosen].to == kPathEnd) {
-      found_ = cost;
+    completion_.reset();
+    found_ = cost;
+    const StateId to = continuations_[chosen].to;
+    if (to == kPathEnd) return true;
+    const std::uint32_t next = follow(chosen);
+    if (const Cost other = apart(next); cost + other > threshold_) {
+      if (other < kNever) note_cut(cost + other);
+      completion_ = next;
       return true;
     }
-    const StateId to = continuations_[chosen].to;
-    push_frame(to, follow(chosen), cost);
+    push_frame(to, next, cost);
   }
   return false;
 }
@@ -245,12 +274,20 @@ void PathEnumeration::lower_threshold(std::size_t limit) {
   deviations_ = std::move(deviations);
 }
 
-void PathEnumeration::write_stack(SequencePath& path) const {
+void PathEnumeration::write_stack(SequencePath& path) {
   path.cost = found_;
   path.steps.clear();
-  for (std::size_t depth = 0; depth + 1 < frames_.size(); ++depth)
-    path.steps.push_back(
-        continuations_[lists_[frames_[depth].list].first + frames_[depth].chosen].step);
+  for (const Frame& frame : frames_) {
+    const Continuation& way = continuations_[lists_[frame.list].first + frame.chosen];
+    if (way.to != kPathEnd) path.steps.push_back(way.step);
+  }
+  if (!completion_) return;
+  for (std::uint32_t list = *completion_;;) {
+    const std::size_t best = lists_[list].first;
+    if (continuations_[best].to == kPathEnd) return;
+    path.steps.push_back(continuations_[best].step);
+    list = list_behind(best);
+  }
 }
 
 void PathEnumeration::write_record(const Record& record, SequencePath& path) {

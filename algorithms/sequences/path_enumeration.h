@@ -42,10 +42,10 @@ class CompletionSpace {
 ///
 /// Exact costs-to-go tell of every beginning of a path what the best path costs that begins so.
 /// Searching depth first, only beginnings within a threshold are followed, so that each one leads
-/// to a path. One pass collects all paths between the last threshold and the next, a batch of
-/// bounded size, as their deviations from best completions; the costs of what was cut tell the next
-/// threshold. A class of equal costs larger than a batch is not collected: depth first meets it in
-/// its order.
+/// to a path; where nothing but the best completion is within it, that is not walked. One pass
+/// collects all paths between the last threshold and the next, a batch of bounded size, as their
+/// deviations from best completions; the costs of what was cut tell the next threshold. A class of
+/// equal costs larger than a batch is not collected: depth first meets it in its order.
 ///
 /// Guarantees: 1. paths come in ascending order of (cost, steps);  2. each comes once, and all
 /// come;
@@ -69,11 +69,14 @@ class PathEnumeration {
 
  private:
   enum class Mode { kTies, kBatch, kDone };
+  static constexpr Cost kNever = std::numeric_limits<Cost>::max() / 2;
+  static constexpr Cost kUnknown = -1;
   /// The ways to go on from a state by (slack, step): the first is the best completion's.
   struct List {
     std::size_t first = 0;
     std::uint32_t count = 0;
-    std::optional<Cost> beyond;
+    Cost beyond = kNever;   ///< the least slack that is not in the list
+    Cost apart = kUnknown;  ///< the least slack of any other path than the best completion
   };
   struct Frame {
     StateId state = kPathStart;
@@ -95,6 +98,8 @@ class PathEnumeration {
 
   std::uint32_t list_of(StateId state);
   std::uint32_t follow(std::size_t continuation);
+  std::uint32_t list_behind(std::size_t continuation);
+  Cost apart(std::uint32_t list);
   void forget_lists();
   void begin_pass(Cost threshold);
   void push_frame(StateId state, std::uint32_t list, Cost cost);
@@ -105,7 +110,7 @@ class PathEnumeration {
   void collect(Cost above, std::size_t limit);
   void add_record();
   void lower_threshold(std::size_t limit);
-  void write_stack(SequencePath& path) const;
+  void write_stack(SequencePath& path);
   void write_record(const Record& record, SequencePath& path);
 
   const CompletionSpace& space_;
@@ -120,6 +125,9 @@ class PathEnumeration {
   std::unordered_map<StateId, std::uint32_t> list_of_state_;
   std::vector<Frame> frames_;
   Cost found_ = 0;  ///< the cost of the path that `advance` has come to
+  /// Where its frames end and its best completion begins, unless it ends with them.
+  std::optional<std::uint32_t> completion_;
+  std::vector<std::uint32_t> chain_;  ///< scratch
   std::vector<Cost> cuts_;
   Cost worst_cut_ = std::numeric_limits<Cost>::max();
   std::vector<Record> records_;
