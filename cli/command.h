@@ -22,5 +22,6 @@ void add_report_command(CLI::App& app, Action& action);
 void add_figure_command(CLI::App& app, Action& action);
 void add_parts_command(CLI::App& app, Action& action);
 void add_search_command(CLI::App& app, Action& action);
+void add_build_command(CLI::App& app, Action& action);
 
 }  // namespace plat::cli

@@ -14,6 +14,7 @@ find_package(GDAL 3.6 REQUIRED)
 find_package(GEOS 3.11 REQUIRED)
 # CONFIG: CGAL brings a module of the same name that looks elsewhere.
 find_package(OpenMesh CONFIG REQUIRED)
+find_package(TinyGLTF CONFIG REQUIRED)
 if(PLAT_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -9,7 +9,7 @@ run_packages=(
   g++ cmake ninja-build ccache mold git ca-certificates
   libboost-dev libcgal-dev libcli11-dev libexpected-dev libfmt-dev libgdal-dev libgeos-dev libgmp-dev libmpfr-dev
   libopenmesh-dev libssl-dev libtbb-dev libtinygltf-dev nlohmann-json3-dev
-  gdal-bin python3 python3-matplotlib python3-pandas python3-geopandas)
+  gdal-bin povray python3 python3-matplotlib python3-pandas python3-geopandas)
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev clang-format-19
   jupyter-nbconvert python3-ipykernel python3-nbformat python3-jsonschema)
