@@ -98,6 +98,8 @@ const bool kRegistered = [] {
   for (const std::string& name : sequences::sequence_searches().names()) add(name, name, {});
   add("forward[none]", "forward", {{"dominance", "none"}});
   add("forward[bounds]", "forward", {{"dominance", "bounds"}});
+  add("intermediate_graph[resources_and_cost]", "intermediate_graph",
+      {{"bounding", "resources_and_cost"}});
   add("label_setting[none]", "label_setting",
       {{"pruning", "none"}, {"max_labels", 1e8}, {"max_comparisons_million", 1e6}}, kFewRounds);
   return true;
