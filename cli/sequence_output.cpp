@@ -139,6 +139,7 @@ ordered_json sequence_json(const CompiledProblem& compiled, const SequenceProble
   for (std::size_t r = 0; r < found.consumed.size(); ++r)
     out["consumed"][problem.database.resources[r].name] =
         number(found.consumed[r], problem.database.resources[r].step);
+  if (!is_structure(problem)) return out;
   for (const BoundUse& use : bound_uses(compiled, path)) {
     if (!use.place.segment) continue;
     out["consumed_by_segment"][segment_name(problem, *use.place.segment)]

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "sequences/compiled_problem.h"
 #include "sequences/support/brute_force.h"
 #include "sequences/support/random_problems.h"

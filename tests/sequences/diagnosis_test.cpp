@@ -1,8 +1,9 @@
 #include "sequences/diagnosis.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "sequences/sequence_search.h"
 #include "sequences/stretched_search.h"

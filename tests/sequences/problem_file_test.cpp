@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string_view>
+
 #include "core/failure.h"
 #include "sequences/support/random_problems.h"
 #include "support/property.h"
@@ -147,6 +150,41 @@ TEST(ProblemFile, WrittenIsReadBackAsTheSame) {
     for (std::size_t t = 0; t < problem.database.transitions.size(); ++t)
       ASSERT_EQ(read.problem.database.transitions[t].cost, problem.database.transitions[t].cost);
   }
+}
+
+/// A value that may stand anywhere in JSON.
+std::string random_value(Rng& rng) {
+  constexpr std::array<std::string_view, 12> kValues{"null",      "true",   "-1", "0.3",
+                                                     "1e300",     "[]",     "{}", "\"a\"",
+                                                     "[null, 1]", "[2, 1]", "7",  "\"\""};
+  return std::string(kValues[rng.index(kValues.size())]);
+}
+
+TEST(ProblemFile, RefusesWhatIsBrokenAndNeverFailsOtherwise) {
+  const std::string good = small_problem(kLength, R"(, "bounds": {"length_m": [2.4, null]},
+        "key_points": [{"name": "k", "classes": ["wall"]}],
+        "segments": [{"name": "n", "from": "k", "bounds": {"length_m": 3}}])");
+  Rng rng = plat::testing::property_rng("broken");
+  int refused = 0;
+  for (int i = 0; i < plat::testing::iterations(3000); ++i) {
+    std::string text = good;
+    const std::size_t at = rng.index(text.size());
+    if (rng.index(3) == 0) {
+      text.erase(at, 1 + rng.index(8));
+    } else {  // the value behind the next colon
+      const std::size_t colon = text.find(':', at);
+      if (colon == std::string::npos) continue;
+      const std::size_t end = text.find_first_of(",}]", colon);
+      text.replace(colon + 1, end - colon - 1, random_value(rng));
+    }
+    try {
+      static_cast<void>(parse_problem(text, "p.json"));
+    } catch (const InputError& error) {
+      ++refused;
+      ASSERT_EQ(std::string(error.what()).find("p.json: "), 0U) << text;
+    }
+  }
+  EXPECT_GT(refused, plat::testing::iterations(1000));
 }
 
 TEST(ProblemFile, RefusesToWriteWhatAFileCannotTellApart) {
