@@ -12,6 +12,8 @@ constexpr double kBandProjection_m = 0.06;
 /// Thickness of a roof at its eave, and of the walls of a parapet.
 constexpr double kRoofEdge_m = 0.15;
 constexpr double kParapetWall_m = 0.3;
+/// A wall takes a bay more where it lacks less than this share of one: rounding only.
+constexpr double kWholeBay = 1e-9;
 /// What stays above the opening of an arcade, and beside it at a free end.
 constexpr double kArcadeBeam_m = 0.7;
 constexpr double kArcadePier_m = 0.7;
@@ -191,7 +193,7 @@ void RowPart::dress(const Wall& wall, const Features& features) {
   const double usable_m = wall.length_m - 2.0 * style_.bay_margin_m;
   const int bays =
       features.has_windows
-          ? std::max(0, static_cast<int>(std::floor(usable_m / style_.bay_pitch_m + 1e-9)))
+          ? std::max(0, static_cast<int>(std::floor(usable_m / style_.bay_pitch_m + kWholeBay)))
           : 0;
   std::vector<double> centres;
   const double pitch_m = bays > 0 ? usable_m / bays : usable_m;

@@ -197,7 +197,7 @@ KitPlan townhouse_plan() {
   plan.middles = {
       {0.4, {.has_windows = false}, ""},
       {0.6, {.has_windows = false}, ""},
-      {1.0, {.has_windows = false}, "_chimney"},
+      {1.0, {.chimneys = 1, .has_windows = false}, "_chimney"},
       {1.4, {.has_windows = false}, ""},
       {2.4, {}, ""},
       {2.4, {.balconies = 1, .dormers = 1}, "_balcony"},
@@ -210,7 +210,6 @@ KitPlan townhouse_plan() {
       {8.0, {.balconies = 1, .has_door = true, .dormers = 2, .chimneys = 1}, "_door"},
       {9.8, {.has_door = true, .has_solar = true, .chimneys = 1, .air_conditions = 2}, "_solar"},
       {12.0, {.balconies = 4, .has_door = true, .dormers = 4, .chimneys = 2}, "_grand"}};
-  plan.middles[2].features.chimneys = 1;
   plan.corner_angles_deg = {45.0, 60.0, 90.0, 120.0, 135.0};
   plan.tee_margins_m = {0.0};
   return plan;
