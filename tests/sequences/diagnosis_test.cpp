@@ -9,6 +9,7 @@
 #include "sequences/stretched_search.h"
 #include "sequences/support/brute_force.h"
 #include "sequences/support/random_problems.h"
+#include "sequences/support/structure_brute_force.h"
 #include "support/property.h"
 
 namespace plat::sequences {
@@ -56,21 +57,24 @@ SequenceProblem random_chain(Rng& rng) {
   return problem;
 }
 
-/// Calls `check` for random problems, of both kinds, that have no sequence but could have.
+/// Calls `check` for random problems, plain, of a corner and of trees and loops, that have no
+/// sequence but could have.
 template <class Check>
 void for_problems_without_sequence(const std::string& name, int count, Check check) {
   Rng rng = property_rng(name);
   int local = 0;
   for (int found = 0; found < count;) {
-    const bool is_chain = rng.index(2) == 0;
+    const auto kind = rng.index(3);
     SequenceProblem problem =
-        is_chain ? random_chain(rng)
-                 : plat::testing::random_plain_problem(
-                       rng, {.elements = 5, .resources = 3, .amount = 8, .use = 3});
+        kind == 0 ? random_chain(rng)
+        : kind == 1
+            ? plat::testing::random_structure_problem(rng, {.segments = 3, .key_elements = 2})
+            : plat::testing::random_plain_problem(
+                  rng, {.elements = 5, .resources = 3, .amount = 8, .use = 3});
     const Posed posed{problem, compile(problem)};
     if (!k_best_paths(posed.compiled.graph, 1).empty()) continue;
     ++found;
-    local += is_chain ? 1 : 0;
+    local += kind < 2 ? 1 : 0;
     SCOPED_TRACE(fmt::format("{} case {}", name, found));
     check(posed);
     if (::testing::Test::HasFailure()) return;
@@ -261,6 +265,25 @@ TEST(Diagnosis, SaysThatNothingLeadsThrough) {
   problem.database.transitions.resize(1);
   EXPECT_EQ(diagnose(compile(problem), problem)->gap,
             "no row of transitions leads from an element that may begin to one that may end");
+}
+
+TEST(Diagnosis, NamesTheSegmentThatNothingLeadsThrough) {
+  SequenceProblem problem = small_problem({}, {});
+  problem.database.elements.push_back({.name = "corner", .uses = {1, 0}, .is_filling = false});
+  problem.database.transitions.push_back({.from = 0, .to = 2});
+  problem.database.transitions.push_back({.from = 2, .to = 1});
+  problem.structure = {{{"corner", {2}}}, {}};
+  problem.structure.segments.resize(2);
+  problem.structure.segments[0].to = 0;
+  problem.structure.segments[1].from = 0;
+  problem.structure.segments[1].name = "east";
+  for (auto& element : problem.database.elements) element.is_back = false;
+  problem.structure.segments[1].bounds = {{3, 3}, {}};
+  EXPECT_EQ(diagnose(compile(problem), problem)->gap, "no element may end");
+  problem.database.elements[1].is_back = true;
+  problem.database.transitions.pop_back();
+  EXPECT_EQ(diagnose(compile(problem), problem)->gap,
+            "no transitions lead through segment \"east\"");
 }
 
 TEST(Diagnosis, GivesUpWithAFailureBeyondItsLimit) {
