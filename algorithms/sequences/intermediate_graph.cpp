@@ -93,9 +93,9 @@ std::uint32_t IntermediateGraph::entry_state(const Terminal& entry) const {
 
 std::optional<std::uint32_t> IntermediateGraph::exit_of(std::uint32_t state) const {
   const std::uint32_t node = nodes_[state];
+  if (!consumption_->may_end(consumption_->zone_of(node), consumed(state))) return std::nullopt;
   const auto exit = std::ranges::lower_bound(graph_->exits, node, {}, &Terminal::node);
   if (exit == graph_->exits.end() || exit->node != node) return std::nullopt;
-  if (!consumption_->may_end(consumption_->zone_of(node), consumed(state))) return std::nullopt;
   return static_cast<std::uint32_t>(exit - graph_->exits.begin());
 }
 

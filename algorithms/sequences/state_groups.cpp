@@ -27,11 +27,20 @@ std::size_t StateGroups::slot_of(std::uint32_t zone, std::span<const Amount> con
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash_of(zone, consumed) & mask;
   while (slots_[slot] != kNone) {
-    const std::uint32_t group = slots_[slot];
-    if (zones_[group] == zone && std::ranges::equal(this->consumed(group), consumed)) break;
+    if (is_group(slots_[slot], zone, consumed)) break;
     slot = (slot + 1) & mask;
   }
   return slot;
+}
+
+/// Vectors are short: a loop is faster than a call to compare memory.
+bool StateGroups::is_group(std::uint32_t group, std::uint32_t zone,
+                           std::span<const Amount> consumed) const {
+  if (zones_[group] != zone) return false;
+  const Amount* amounts = consumed_.data() + std::size_t{group} * dimension_count_;
+  for (std::uint32_t d = 0; d < dimension_count_; ++d)
+    if (amounts[d] != consumed[d]) return false;
+  return true;
 }
 
 std::uint32_t StateGroups::find(std::uint32_t zone, std::span<const Amount> consumed) const {

@@ -52,6 +52,8 @@ class StateGroups {
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
+  [[nodiscard]] bool is_group(std::uint32_t group, std::uint32_t zone,
+                              std::span<const Amount> consumed) const;
   [[nodiscard]] std::size_t slot_of(std::uint32_t zone, std::span<const Amount> consumed) const;
   void grow();
 

@@ -169,6 +169,7 @@ TEST(IntermediateGraphTrace, TellsSidesAndDeadEnds) {
   for (const auto& state : trace->states) {
     if (!state.is_pruned) alive.insert({state.node, state.level, state.consumed});
     sides.insert(state.side);
+    for (std::size_t d = 0; d < 2; ++d) EXPECT_GE(state.consumed[d], graph.uses(state.node)[d]);
   }
   EXPECT_EQ(alive, states_of(graph));
   EXPECT_EQ(sides.size(), 3U);
