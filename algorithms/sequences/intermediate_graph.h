@@ -31,7 +31,7 @@ namespace plat::sequences {
 class IntermediateGraph {
  public:
   /// @param graph  must outlive the result
-  /// @returns      Failure kTooManyStates beyond `limits.max_states`
+  /// @returns      Failure kTooManyStates beyond the limits
   static Expected<IntermediateGraph> build(const SearchGraph& graph, const GrowthLimits& limits);
 
   [[nodiscard]] const SearchGraph& search_graph() const { return *graph_; }

@@ -57,12 +57,19 @@ Expected<GrownStates> IntermediateGraphGrowth::run() {
   is_bidirectional_ = grows_backward();
   if (is_bidirectional_) leave();
   grow();
-  if (states_.created > limits_.max_states)
+  if (is_too_large())
     return fail(FailureCode::kTooManyStates,
-                "more than " + std::to_string(limits_.max_states) +
-                    " states; raise max_states, use coarser steps or narrower bounds");
+                std::to_string(states_.created) + " states, " + std::to_string(bytes() >> 20) +
+                    " MiB, and more to come; raise max_states or max_memory_mib, use coarser "
+                    "steps, narrower bounds or bounding=resources_and_cost");
   prune();
   return std::move(states_);
+}
+
+/// Four sets of states when pruning, two before.
+std::uint64_t IntermediateGraphGrowth::bytes() const {
+  return states_.groups.bytes() + 4 * states_.forward.size() * sizeof(std::uint64_t) +
+         states_.groups.size() * (sizeof(std::size_t) + sizeof(std::uint32_t) + 1);
 }
 
 /// Whether few enough states may be the last before an exit or before a link that resets amounts.
@@ -115,7 +122,7 @@ void IntermediateGraphGrowth::grow() {
     return backward_queue_.empty() ||
            states_.groups.precedes(backward_queue_.front(), forward_queue_.front());
   };
-  while (!have_met() && states_.created <= limits_.max_states) {
+  while (!have_met() && !is_too_large()) {
     expand_forward(pop(forward_queue_), Reach::kCreate);
     if (is_bidirectional_ && !have_met()) expand_backward(pop(backward_queue_));
   }

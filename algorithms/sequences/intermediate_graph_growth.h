@@ -16,7 +16,8 @@ namespace plat::sequences {
 
 /// How far the growth of an intermediate graph may go.
 struct GrowthLimits {
-  std::uint64_t max_states = 50'000'000;  ///< states held, dead ends included
+  std::uint64_t max_states = 50'000'000;    ///< states held, dead ends included
+  std::uint64_t max_bytes = 4'000'000'000;  ///< held while growing and pruning, roughly
   /// Growth from the end begins with every vector that a path may end with. Where that would be
   /// more than so many states, the graph is grown from the front alone, and comes out the same.
   std::uint64_t max_end_states = 100'000;
@@ -64,6 +65,10 @@ class IntermediateGraphGrowth {
   enum Flag : std::uint8_t { kQueuedForward = 1, kQueuedBackward = 2, kExpandedForward = 4 };
 
   [[nodiscard]] bool grows_backward() const;
+  [[nodiscard]] std::uint64_t bytes() const;
+  [[nodiscard]] bool is_too_large() const {
+    return states_.created > limits_.max_states || bytes() > limits_.max_bytes;
+  }
   void enter();
   void leave();
   void grow();

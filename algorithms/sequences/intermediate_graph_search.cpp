@@ -59,7 +59,10 @@ class Attempt {
                                                  const IntermediateGraphSearch::Options& options,
                                                  std::optional<Cost> max_cost) {
     auto attempt = std::unique_ptr<Attempt>(new Attempt);
-    GrowthLimits limits{options.max_states, options.max_end_states, nullptr};
+    GrowthLimits limits{.max_states = options.max_states,
+                        .max_bytes = std::uint64_t{options.max_memory_mib} << 20,
+                        .max_end_states = options.max_end_states,
+                        .bounds = nullptr};
     if (options.bounding != IntermediateGraphSearch::Bounding::kNone) {
       attempt->pruned_ = prune(graph, max_cost);
       limits.bounds = &attempt->pruned_->bounds;

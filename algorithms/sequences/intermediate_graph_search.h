@@ -22,7 +22,7 @@ namespace plat::sequences {
 /// Guarantees: 1. those of `SequenceSearch`;  2. without bounding, `states_created` is the number
 /// of nodes of the thesis's graph after its prunings, and `states_pruned` that of its dead ends;
 /// with bounding by cost they are those of the last graph, of paths up to the limit.
-/// @returns       Failure kTooManyStates beyond `max_states`
+/// @returns       Failure kTooManyStates beyond `max_states` or `max_memory_mib`
 /// Complexity:    O(states x arcs of a node) for the first path, then as `KShortestWalks`
 /// Paper:         [Har, Sec. 3.3]; k best by [Epp94]; bounds as in [BC89]
 /// Deviation:     ADR 0019
@@ -36,6 +36,7 @@ class IntermediateGraphSearch {
   struct Options {
     Bounding bounding = Bounding::kNone;    ///< which states are not created
     std::uint32_t max_states = 50'000'000;  ///< states held, dead ends included
+    std::uint32_t max_memory_mib = 4'000;   ///< memory held while the graph grows
     /// Last states from which growth from the end may begin; more, and it is from the front alone.
     std::uint32_t max_end_states = 100'000;
     static constexpr auto fields() {
@@ -51,6 +52,8 @@ class IntermediateGraphSearch {
               "needed"},
           Field{"max_states", &Options::max_states, 1, 1'000'000'000,
                 "states that may be held, dead ends included; more is a failure"},
+          Field{"max_memory_mib", &Options::max_memory_mib, 1, 1'000'000,
+                "mebibytes that the growing graph may hold; more is a failure"},
           Field{"max_end_states", &Options::max_end_states, 0, 1'000'000'000,
                 "last states from which the graph is grown backwards; where the bounds allow more, "
                 "it is grown from the front alone, to the same graph"}};

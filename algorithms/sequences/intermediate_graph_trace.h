@@ -38,7 +38,7 @@ struct IntermediateGraphTrace {
 ///
 /// Guarantees: 1. the states that are not pruned are those of `IntermediateGraph`;  2. every arc
 /// between two created states is there.
-/// @returns Failure kTooManyStates beyond `limits.max_states`
+/// @returns Failure kTooManyStates beyond the limits
 Expected<IntermediateGraphTrace> trace_intermediate_graph(const SearchGraph& graph,
                                                           const GrowthLimits& limits = {});
 

@@ -155,10 +155,13 @@ TEST(IntermediateGraph, LeavesItsStatesInTopologicalOrder) {
   }
 }
 
-TEST(IntermediateGraph, SaysWhenThereAreTooManyStates) {
-  const auto built = IntermediateGraph::build(three_elements(), {.max_states = 3});
-  ASSERT_FALSE(built.has_value());
-  EXPECT_EQ(built.error().code, FailureCode::kTooManyStates);
+TEST(IntermediateGraph, SaysWhenThereAreTooManyStatesOrBytes) {
+  for (const GrowthLimits limits :
+       {GrowthLimits{.max_states = 3}, GrowthLimits{.max_bytes = 300}}) {
+    const auto built = IntermediateGraph::build(three_elements(), limits);
+    ASSERT_FALSE(built.has_value());
+    EXPECT_EQ(built.error().code, FailureCode::kTooManyStates);
+  }
 }
 
 TEST(IntermediateGraphTrace, TellsSidesAndDeadEnds) {
