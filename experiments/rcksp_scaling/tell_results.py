@@ -1,4 +1,4 @@
-"""python3 tell_results.py RUN_DIR: what rcksp_scaling found there, as Markdown: numbers to reach, the street, exponents."""
+"""python3 tell_results.py RUN_DIR: what rcksp_scaling found there, as Markdown."""
 
 import json
 import pathlib
@@ -42,6 +42,25 @@ def goals(cells):
             yield (f"`{strategy}`, 200 m, k = 10^6", "time stated", f"{stream.total_s:.2f} s, {stream.peak_mb:.0f} MB", True)
 
 
+def winners(cells):
+    """Per study: who was the fastest at each value, of the strategies with options as they come."""
+    own = cells[(cells.status == "ok") & (cells.strategy == cells["name"])]
+    print("\n| study | the fastest |\n| --- | --- |")
+    for study, rows in own.groupby("study", sort=False):
+        best = rows.loc[rows.groupby("value").total_s.idxmin()]
+        print(f"| {study} | " + ", ".join(f"{r.value:g}: `{r.strategy}` {milliseconds(r.total_s)} ms" for r in best.itertuples())
+              + " |")
+
+
+def zero_costs(cells):
+    """The thesis: where most elements concatenate with zero cost, ranking is often faster than its graph [Har, Sec. 6.4]."""
+    print("\n| share of free transitions, 100 m | `intermediate_graph` [ms] | `ranking` | `ranking (no pruning)` |")
+    print("| --- | --- | --- | --- |")
+    for value in cells[cells.study == "zero_costs"].value.unique():
+        times = [cell(cells, "zero_costs", value, s).total_s for s in ("intermediate_graph", "ranking", "ranking (no pruning)")]
+        print(f"| {value:g} | " + " | ".join(milliseconds(t) for t in times) + " |")
+
+
 def street_table(cells, published):
     own = cells[cells.study == "street"]
     strategies = list(own.strategy.unique())
@@ -79,6 +98,8 @@ def main(arguments):
             fields.append(f"{rows.exponent.iloc[0]:.2f} ({rows.low.iloc[0]:.2f} to {rows.high.iloc[0]:.2f}), n = {rows.points.iloc[0]}"
                           if len(rows) else "")
         print(f"| `{strategy}` | " + " | ".join(fields) + " |")
+    zero_costs(cells)
+    winners(cells)
     return 0
 
 
