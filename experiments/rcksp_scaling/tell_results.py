@@ -21,11 +21,12 @@ def cell(cells, study, value, strategy):
 def goals(cells):
     """(what, bound, measured, holds)"""
     fast = cell(cells, "street", LONG_M, "layered (avx2)")
-    yield ("`layered` on AVX2, 2000 m, k = 1", "5 ms", f"{milliseconds(fast.total_s)} (least {milliseconds(fast.total_min_s)}) ms",
+    yield ("`layered` on AVX2, 2000 m, k = 1", "5 ms", f"{milliseconds(fast.total_s)} ms, least {milliseconds(fast.total_min_s)}, "
+           f"of the processor {milliseconds(fast.total_cpu_s)}",
            fast.total_s <= 5e-3)
     graph = cell(cells, "street", LONG_M, "intermediate_graph")
-    yield ("`intermediate_graph`, 2000 m, k = 1", "0.5 s, 1 GB", f"{graph.total_s:.3f} (least {graph.total_min_s:.3f}) s, "
-           f"{graph.peak_mb:.0f} MB, {graph.states_created:,.0f} nodes", graph.total_s <= 0.5 and graph.peak_mb <= 1000)
+    yield ("`intermediate_graph`, 2000 m, k = 1", "0.5 s, 1 GB", f"{graph.total_s:.3f} s, least {graph.total_min_s:.3f}, "
+           f"of the processor {graph.total_cpu_s:.3f}; {graph.peak_mb:.0f} MB, {graph.states_created:,.0f} nodes", graph.total_s <= 0.5 and graph.peak_mb <= 1000)
     for label in ("wall", "processor"):
         of = "" if label == "wall" else "cpu_"
         far = [cell(cells, "street", length, "forward") for length in cells[cells.study == "street"].value.unique()
