@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
-#include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/r_c_shortest_paths.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "sequences/cheapest_ways.h"
+#include "sequences/expanded_graph_internal.h"
 #include "sequences/given_paths.h"
 #include "sequences/resource_bounds.h"
 #include "sequences/state_index.h"
@@ -18,115 +18,19 @@
 namespace plat::sequences {
 namespace {
 
+using detail::Edge;
+using detail::EdgeMeaning;
+using detail::Expanded;
+using detail::expanded;
+using detail::Graph;
+using detail::Way;
+
 /// How many labels may precede one that is kept: 1 in the first run, more in each further one.
 constexpr std::size_t kLimitGrowth = 2;
 /// Edges and vertices of the expanded graph that are worth shorter lists of labels.
 constexpr std::int64_t kLargestSplit = 4'000'000;
 /// As many possible states are numbered from the start.
 constexpr std::size_t kDenseStates = std::size_t{1} << 16;
-
-/// What an edge of the expanded graph does.
-enum class Way : std::uint8_t { kEntry, kArc, kLink, kExit };
-struct EdgeMeaning {
-  Cost cost = 0;
-  std::uint32_t index = 0;  ///< of the entry, of the arc in its zone's table, or of the link
-  Way way = Way::kArc;
-};
-using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, EdgeMeaning>;
-using Edge = boost::graph_traits<Graph>::edge_descriptor;
-
-/// A search graph as Boost takes it: a vertex per node, then the source and the sink. With a
-/// dimension to split by, a vertex per node and amount of it: Boost compares each label of a vertex
-/// with each, and labels of different amounts of a dimension with both bounds never compare.
-struct Expanded {
-  Graph graph;
-  std::vector<std::uint32_t> nodes;  ///< by vertex
-  [[nodiscard]] std::size_t source() const { return nodes.size(); }
-  [[nodiscard]] std::size_t sink() const { return nodes.size() + 1; }
-};
-
-class Expansion {
- public:
-  Expansion(const SearchGraph& graph, std::optional<std::uint32_t> split)
-      : graph_(graph), split_(split) {
-    for (const Zone& zone : graph.zones) {
-      bases_.push_back(out_.nodes.size());
-      for (Amount level = 0; level < levels(zone); ++level)
-        for (std::uint32_t local = 0; local < zone.size; ++local)
-          out_.nodes.push_back(zone.first_node + local);
-    }
-  }
-
-  Expanded operator()() {
-    for (std::uint32_t z = 0; z < graph_.zones.size(); ++z)
-      for (Amount level = 0; level < levels(graph_.zones[z]); ++level)
-        for (std::uint32_t local = 0; local < graph_.zones[z].size; ++local)
-          add_edges_from(z, level, local);
-    for (std::uint32_t entry = 0; entry < graph_.entries.size(); ++entry) {
-      const Terminal& terminal = graph_.entries[entry];
-      add_edge(out_.source(), graph_.zone_of(terminal.node), terminal.node, 0, 0,
-               {terminal.cost, entry, Way::kEntry});
-    }
-    out_.graph = Graph(boost::edges_are_sorted, ends_.begin(), ends_.end(), meanings_.begin(),
-                       out_.nodes.size() + 2);
-    return std::move(out_);
-  }
-
- private:
-  [[nodiscard]] Amount levels(const Zone& zone) const {
-    return split_ ? largest_amount(zone.bounds[*split_]) + 1 : 1;
-  }
-
-  /// To a node with `before` consumed of the dimension to split by, where its maximum allows.
-  void add_edge(std::size_t from, std::uint32_t z, std::uint32_t node, Amount before,
-                Amount arc_used, const EdgeMeaning& meaning) {
-    const Zone& zone = graph_.zones[z];
-    Amount level = 0;
-    if (split_) {
-      const Bounds& bounds = zone.bounds[*split_];
-      auto sum = add_amount(bounds, before, graph_.uses(node)[*split_]);
-      if (sum) sum = add_amount(bounds, *sum, arc_used);
-      if (!sum) return;
-      level = *sum;
-    }
-    const std::size_t row = static_cast<std::size_t>(level) * zone.size;
-    ends_.emplace_back(from, bases_[z] + row + (node - zone.first_node));
-    meanings_.push_back(meaning);
-  }
-
-  void add_edges_from(std::uint32_t z, Amount level, std::uint32_t local) {
-    const Zone& zone = graph_.zones[z];
-    const std::uint32_t node = zone.first_node + local;
-    const std::size_t from = bases_[z] + static_cast<std::size_t>(level) * zone.size + local;
-    if (zone.table) {
-      const TransitionTable& table = graph_.tables[*zone.table];
-      for (std::uint32_t arc = table.first[local]; arc < table.first[local + 1]; ++arc) {
-        const std::size_t row = std::size_t{arc} * graph_.dimension_count;
-        const Amount used = split_ && !table.arc_uses.empty() ? table.arc_uses[row + *split_] : 0;
-        add_edge(from, z, zone.first_node + table.arcs[arc].head, level, used,
-                 {table.arcs[arc].cost, arc, Way::kArc});
-      }
-    }
-    const auto [first, last] = graph_.links_from(node);
-    for (std::uint32_t l = first; l < last; ++l) {
-      const Link& link = graph_.links[l];
-      const std::uint32_t next = graph_.zone_of(link.to);
-      const bool is_reset = split_ && graph_.zones[next].resets[*split_];
-      add_edge(from, next, link.to, is_reset ? 0 : level, 0, {link.cost, l, Way::kLink});
-    }
-    const auto exit = std::ranges::lower_bound(graph_.exits, node, {}, &Terminal::node);
-    if (exit == graph_.exits.end() || exit->node != node) return;
-    ends_.emplace_back(from, out_.sink());
-    meanings_.push_back({exit->cost, 0, Way::kExit});
-  }
-
-  const SearchGraph& graph_;
-  std::optional<std::uint32_t> split_;
-  Expanded out_;
-  std::vector<std::size_t> bases_;  ///< by zone: its first vertex
-  std::vector<std::pair<std::size_t, std::size_t>> ends_;
-  std::vector<EdgeMeaning> meanings_;
-};
 
 /// Which of two amounts of a dimension is no worse.
 enum class Better : std::uint8_t { kLess, kMore, kEqual };
@@ -345,7 +249,7 @@ class Counter : public boost::default_r_c_shortest_paths_visitor {
 class LabelSettingStream final : public SequenceStream {
  public:
   LabelSettingStream(const SearchGraph& graph, const LabelSettingSearch::Options& options)
-      : expanded_(Expansion(graph, std::nullopt)()),
+      : expanded_(expanded(graph, std::nullopt)),
         shared_{graph, &expanded_.nodes, {}, betters(graph), resource_bounds(graph)} {
     for (std::uint32_t z = 0; z < graph.zones.size(); ++z)
       shared_.zones.insert(shared_.zones.end(), graph.zones[z].size, z);
@@ -374,7 +278,7 @@ class LabelSettingStream final : public SequenceStream {
       if (run_->size() < shared_.limit) return false;
       if (shared_.limit == 1) {
         const auto split = dimension_to_split_by(shared_.graph, shared_.betters);
-        if (split) expanded_ = Expansion(shared_.graph, split)();
+        if (split) expanded_ = expanded(shared_.graph, split);
       }
       shared_.limit *= kLimitGrowth;
       run_.reset();
