@@ -85,7 +85,6 @@ struct Label {
   friend bool operator<(const Label& a, const Label& b) {
     return std::pair(a.least_total, a.number) < std::pair(b.least_total, b.number);
   }
-  friend bool operator==(const Label& a, const Label& b) { return a.number == b.number; }
 };
 
 /// What Boost's functors, which it copies or holds as constants, have in common.

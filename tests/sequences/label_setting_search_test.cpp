@@ -107,9 +107,6 @@ struct Consumed {
   int cost = 0;
   int use = 0;
   friend bool operator<(const Consumed& a, const Consumed& b) { return a.cost < b.cost; }
-  friend bool operator==(const Consumed& a, const Consumed& b) {
-    return a.cost == b.cost && a.use == b.use;
-  }
 };
 
 struct Extend {
