@@ -118,22 +118,23 @@ TEST(RankingSearch, AnswersThatThereIsNothingWithoutLookingAtMuch) {
   }
 }
 
-/// a and b lead to each other and use nothing, so that b is tried and left while a is still open.
+/// Nothing is used until the end, so that b is tried and left while a is still open, and d, which
+/// leads to b only, after that.
 TEST(CompletableStates, IncludeThoseThatLeadBackToTheWayThatIsTried) {
   SequenceDatabase database;
   database.resources = {{"length", 1.0}};
   database.elements = {{.name = "a", .uses = {0}, .is_back = false},
                        {.name = "b", .uses = {0}, .is_back = false},
-                       {.name = "c", .uses = {1}}};
-  database.transitions = {{.from = 0, .to = 1, .cost = 1},
-                          {.from = 0, .to = 2, .cost = 1},
-                          {.from = 1, .to = 0, .cost = 1}};
+                       {.name = "d", .uses = {0}, .is_back = false},
+                       {.name = "end", .uses = {1}}};
+  for (const auto& [from, to] : {std::pair(0U, 1U), {0U, 2U}, {0U, 3U}, {1U, 0U}, {2U, 1U}})
+    database.transitions.push_back({.from = from, .to = to, .cost = 1});
   const SearchGraph graph = compile(plain_sequence(database, {{1, 1}})).graph;
   const Consumption consumption(graph);
   const ResourceBounds bounds = resource_bounds(graph);
   CompletableStates completable(consumption, bounds, 1'000'000);
-  EXPECT_TRUE(completable.may_end(0, std::vector<Amount>{0}));
-  EXPECT_TRUE(completable.may_end(1, std::vector<Amount>{0}));
+  for (const std::uint32_t node : {0U, 1U, 2U})
+    EXPECT_TRUE(completable.may_end(node, std::vector<Amount>{0})) << node;
 }
 
 TEST(CompletableStates, AreThoseFromWhichAPathEndsWell) {
