@@ -7,6 +7,9 @@
 namespace plat::sequences {
 namespace {
 
+/// Boxes may have one cell for so many values: each is looked at, whether it is reached or not.
+constexpr std::uint64_t kShareOfCells = 8;
+
 /// Builds the plan, zone by zone: backwards what must be remembered, forwards what is reached.
 class Planner {
  public:
@@ -208,7 +211,7 @@ class Planner {
     const auto cells = number_cells(layers);
     if (!cells) return false;
     cells_ += *cells;
-    if (cells_ > max_values_ || *cells >= kNoRow) return false;
+    if (cells_ > max_values_ / kShareOfCells || *cells >= kNoRow) return false;
     layers.row_count = static_cast<Row>(*cells);
     if (layers.run_dimension)
       layers.runs.resize(*cells);

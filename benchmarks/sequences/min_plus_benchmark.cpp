@@ -37,7 +37,7 @@ bool select(benchmark::State& state, InstructionSet& set) {
 // ---- the bounds: the same additions and minima without the kernel's loops and stores ----
 
 /// Independent minima, enough of them to hide their latency.
-constexpr std::size_t kChains = 8;
+constexpr std::size_t kChains = 6;
 /// Less than half of the first-level cache.
 constexpr std::size_t kLoadedValues = 2048;
 constexpr std::uint64_t kRounds = 4096;
@@ -48,15 +48,17 @@ __attribute__((target("avx2"))) std::uint64_t relax_avx2(const std::int32_t* loa
                                                          std::int32_t* out) {
   __m256i least[kChains];
   __m256i sum = _mm256_set1_epi32(*out);
-  for (auto& chain : least) chain = sum;
-  const __m256i one = _mm256_set1_epi32(1);
+  __m256i bases[kChains];
+  for (std::size_t c = 0; c < kChains; ++c) {
+    least[c] = sum;
+    bases[c] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(loaded + c * 8));
+  }
   for (std::uint64_t round = 0; round < kRounds; ++round) {
-    sum = _mm256_add_epi32(sum, one);
-#pragma GCC unroll 8
+    asm volatile("" : "+x"(sum));  // as if it changed: nothing is computed once for all rounds
     for (std::size_t c = 0; c < kChains; ++c) {
       const auto* from =
           reinterpret_cast<const __m256i*>(loaded + ((round * 64) % kLoadedValues) + c * 8);
-      const __m256i value = kLoads ? _mm256_loadu_si256(from) : least[(c + 1) % kChains];
+      const __m256i value = kLoads ? _mm256_loadu_si256(from) : bases[c];
       least[c] = _mm256_min_epi32(least[c], _mm256_add_epi32(sum, value));
     }
   }
@@ -70,15 +72,16 @@ __attribute__((target("avx512f"))) std::uint64_t relax_avx512(const std::int32_t
                                                               std::int32_t* out) {
   __m512i least[kChains];
   __m512i sum = _mm512_set1_epi32(*out);
-  for (auto& chain : least) chain = sum;
-  const __m512i one = _mm512_set1_epi32(1);
+  __m512i bases[kChains];
+  for (std::size_t c = 0; c < kChains; ++c) {
+    least[c] = sum;
+    bases[c] = _mm512_loadu_si512(loaded + c * 16);
+  }
   for (std::uint64_t round = 0; round < kRounds; ++round) {
-    sum = _mm512_add_epi32(sum, one);
-#pragma GCC unroll 8
+    asm volatile("" : "+v"(sum));
     for (std::size_t c = 0; c < kChains; ++c) {
       const __m512i value =
-          kLoads ? _mm512_loadu_si512(loaded + ((round * 128) % kLoadedValues) + c * 16)
-                 : least[(c + 1) % kChains];
+          kLoads ? _mm512_loadu_si512(loaded + ((round * 128) % kLoadedValues) + c * 16) : bases[c];
       const __m512i other = _mm512_add_epi32(sum, value);
       least[c] = _mm512_mask_min_epi32(least[c], 0xFFFF, least[c], other);
     }
