@@ -74,6 +74,20 @@ TEST(LayeredSearch, StreamsAClassOfEqualCostsThatIsLargerThanABatch) {
   EXPECT_TRUE(std::ranges::is_sorted(paths, std::ranges::less{}, &SequencePath::steps));
 }
 
+TEST(LayeredSearch, HoldsNoMoreForMorePaths) {
+  SearchGraph graph = uniform_graph(3, 9, 2);
+  graph.tables[0].arcs[0].cost = 1;  // from 0 to 0: costs from 8 to 16, thousands of paths each
+  const auto stream = LayeredSearch({.batch_paths = 10}).search(graph);
+  ASSERT_TRUE(stream.has_value());
+  SequencePath path;
+  std::uint64_t bytes = 0;
+  std::size_t count = 0;
+  for (; *(*stream)->next(path); ++count)
+    bytes = std::max(bytes, (*stream)->statistics().bytes_held);
+  EXPECT_EQ(count, 19683U);
+  EXPECT_LT(bytes, 50'000U);  // the paths have 8 bytes for each of 9 steps, 1.4 MB in all
+}
+
 TEST(LayeredSearch, FindsCostsThatNeed64Bits) {
   constexpr Cost kHuge = Cost{1} << 50;
   SearchGraph graph = uniform_graph(3, 6, kHuge);
