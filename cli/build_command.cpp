@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -94,20 +95,24 @@ ExitStatus run(const Arguments& args) {
   const PreparedBuilding prepared = buildings::prepare(design, parts);
   const double prepare_ms = milliseconds_since(start);
   const auto search_start = Clock::now();
+  const std::clock_t clock_start = std::clock();
   auto stream = search.search(prepared.compiled.graph);
   const auto paths =
       stream ? sequences::find_paths(**stream, args.k) : tl::unexpected<Failure>(stream.error());
   const double search_ms = milliseconds_since(search_start);
+  const double processor_ms =
+      1e3 * static_cast<double>(std::clock() - clock_start) / CLOCKS_PER_SEC;
   if (!paths) {
     fmt::print("{}: {}: {}\n", args.design, failure_name(paths.error().code),
                paths.error().message);
     return kFinishedWithFailures;
   }
   fmt::print(
-      "{} elements, {} transitions, {} nodes in {} zones; prepared in {:.1f} ms, {} in {:.1f} ms\n",
+      "{} elements, {} transitions, {} nodes in {} zones; prepared in {:.1f} ms, {} in {:.1f} ms "
+      "({:.1f} ms of processor)\n",
       prepared.problem.problem.database.elements.size(),
       prepared.problem.problem.database.transitions.size(), prepared.compiled.graph.node_count(),
-      prepared.compiled.graph.zones.size(), prepare_ms, args.method, search_ms);
+      prepared.compiled.graph.zones.size(), prepare_ms, args.method, search_ms, processor_ms);
   if (paths->empty()) {
     const auto& problem = prepared.problem.problem;
     const auto diagnosis = sequences::diagnose(prepared.compiled, problem);

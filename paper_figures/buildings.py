@@ -41,11 +41,11 @@ class Built:
 
 
 def build(figure, name, design, parts, k=1, method="layered"):
-    """The k best buildings of a design, and the search's time in milliseconds."""
+    """The k best buildings of a design, and the search's processor time in milliseconds."""
     file, out = figure.path(f"{name}_design.json"), figure.path(f"{name}.ply")
     file.write_text(json.dumps(design), encoding="utf-8")
     said = figure.plat("build", file, "--parts", parts, "--k", k, "--method", method, "--out", out)
-    time_ms = float(re.search(rf"{method} in ([0-9.]+) ms", said).group(1))
+    time_ms = float(re.search(rf"{method} in [0-9.]+ ms \(([0-9.]+) ms of processor", said).group(1))
     files = [out, *(out.with_name(f"{name}_{i}.ply") for i in range(2, k + 1))]
     return [Built(f) for f in files if f.exists()], time_ms
 
@@ -96,9 +96,9 @@ def merged(models):
                  numpy.vstack([m.faces + o for m, o in zip(models, offsets)]), numpy.vstack([m.colours for m in models]))
 
 
-def picture_of(figure, name, models, azimuth_deg=-55.0, elevation_deg=30.0, width=1200, height=800, **how):
+def picture_of(figure, name, models, azimuth_deg=-55.0, elevation_deg=30.0, width=1200, height=800, room=1.05, **how):
     """A rendered picture that holds all of the models."""
-    camera = looking_at(models, azimuth_deg, elevation_deg, aspect=width / height)
+    camera = looking_at(models, azimuth_deg, elevation_deg, aspect=width / height, room=room)
     return render(figure, name, models, camera, width, height, **how)
 
 

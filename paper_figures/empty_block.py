@@ -10,7 +10,7 @@ from shapely.geometry import Polygon
 from shapely.ops import polygonize, unary_union
 
 #: From the centrelines to the axis: half a street, a front garden, half a building.
-OFFSET_M = 18.0
+OFFSET_M = 15.0
 
 
 class EmptyBlock:

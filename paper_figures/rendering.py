@@ -8,7 +8,7 @@ import subprocess
 import numpy
 from figure import FigureError
 
-SUN_DIRECTION = (-0.55, -0.75, 0.85)
+SUN_DIRECTION = (0.35, -0.85, 0.8)
 
 
 @dataclasses.dataclass
@@ -27,10 +27,14 @@ class Model:
 
 
 def read_ply(path):
-    """A .ply that `plat build` wrote."""
-    data = path.read_bytes()
-    head, _, body = data.partition(b"end_header\n")
-    counts = {line.split()[1]: int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element")}
+    """A .ply that `plat build` (binary) or `plat parts` (text) wrote."""
+    head, _, body = path.read_bytes().partition(b"end_header\n")
+    lines = head.decode().splitlines()
+    counts = {line.split()[1]: int(line.split()[2]) for line in lines if line.startswith("element")}
+    if "format ascii 1.0" in lines:
+        rows = [line.split() for line in body.decode().splitlines()]
+        faces = numpy.array(rows[counts["vertex"]:counts["vertex"] + counts["face"]], float).astype(int)
+        return Model(numpy.array(rows[:counts["vertex"]], float), faces[:, 1:4], faces[:, 4:7].astype("u1"))
     vertices = numpy.frombuffer(body, "<f8", 3 * counts["vertex"]).reshape(-1, 3)
     row = numpy.dtype([("n", "u1"), ("v", "<u4", 3), ("rgb", "u1", 3)])
     rows = numpy.frombuffer(body, row, counts["face"], vertices.nbytes)
@@ -93,7 +97,7 @@ def looking_at(models, azimuth_deg=-60.0, elevation_deg=30.0, angle_deg=28.0, ro
     return camera
 
 
-def render(figure, name, models, camera, width=900, height=600, marks=(), ground="<0.52,0.53,0.48>"):
+def render(figure, name, models, camera, width=900, height=600, marks=(), ground="<0.74,0.75,0.70>"):
     """The path of a PNG. `marks` are cylinders: (foot, height, radius, rgb)."""
     povray = shutil.which("povray")
     if povray is None:
@@ -135,9 +139,9 @@ def _scene(models, camera, marks, ground):
     text = ("#version 3.7;\nglobal_settings { assumed_gamma 1.0 max_trace_level 4 }\n"
             f"camera {{ perspective location {_vector(camera.position())} sky <0,0,1> up <0,0,1> "
             f"right -x*image_width/image_height angle {camera.angle_deg:.3f} look_at {_vector(camera.at)} }}\n"
-            f"light_source {{ {_vector(sun)} rgb <1.02,0.97,0.88> parallel point_at <0,0,0> }}\n"
-            "light_source { <-3e4,8e4,9e4> rgb <0.20,0.23,0.29> parallel point_at <0,0,0> shadowless }\n"
-            "light_source { <6e4,-5e4,6e4> rgb <0.22,0.24,0.27> parallel point_at <0,0,0> shadowless }\n"
+            f"light_source {{ {_vector(sun)} rgb <1.12,1.06,0.96> parallel point_at <0,0,0> }}\n"
+            "light_source { <-3e4,8e4,9e4> rgb <0.26,0.29,0.36> parallel point_at <0,0,0> shadowless }\n"
+            "light_source { <-7e4,-4e4,5e4> rgb <0.26,0.28,0.31> parallel point_at <0,0,0> shadowless }\n"
             "sky_sphere { pigment { gradient z color_map { [0 srgb <0.86,0.90,0.94>] [0.5 srgb <0.55,0.70,0.88>] } } }\n"
             f"plane {{ z, -0.02 pigment {{ srgb {ground} }} finish {{ ambient 0 diffuse 0.9 }} }}\n")
     for foot, height, radius, rgb in marks:

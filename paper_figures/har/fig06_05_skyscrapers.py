@@ -16,10 +16,9 @@ RATIOS = [10, 15, 20]
 def floor_parts(figure):
     """All floors of the kit side by side."""
     figure.plat("parts", "make", "tower", "--out", figure.path("tower_parts"))
-    models, x = [], 0.0
+    models = []
     for file in sorted(figure.path("tower_parts").rglob("*.ply")):
         model = read_ply(file)
-        low, high = model.bounds()
         row, column = divmod(len(models), 6)
         models.append(model.moved((column * 48.0, -row * 52.0, 0.0)))
     return models

@@ -33,7 +33,7 @@ def draw(figure):
     figure.measured("loop", edges - nodes + 1, "edges less nodes and one")
     figure.measured("lengths", building.length_error_m())
     figure.measured("closed", open_edges([building]))
-    figure.measured("time", sorted(times)[RUNS // 2] / 1000, f"median of {RUNS}: search, without preparation and assembly")
+    figure.measured("time", sorted(times)[RUNS // 2] / 1000, f"median of {RUNS}: search alone")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,8 @@ def draw(figure):
     for panel, (key, (kit, rgb)) in zip(axes[1:], STYLES.items()):
         (building,), _ = build(figure, kit, DESIGN, kit)
         top = building.model.bounds()[1][2]
-        show(panel, picture_of(figure, f"{kit}_view", [building.model], -48.0, 34.0, marks=building.marks(rgb, 0.55 * top, 0.4, 0.62 * top)))
+        marks = building.marks(rgb, 0.55 * top, 0.4, 0.62 * top)
+        show(panel, picture_of(figure, f"{kit}_view", [building.model], -48.0, 34.0, room=1.15, marks=marks))
         letter(panel, key, f"{kit}: {len(building.parts)} parts")
         built[kit] = building
     caption(picture, figure)

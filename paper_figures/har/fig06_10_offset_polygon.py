@@ -16,7 +16,7 @@ WINDOW = Window("prague_bubenec_cz", 0, 0, 1e7, 1e7, "the largest block that str
 
 def draw(figure):
     block = EmptyBlock(figure, WINDOW)
-    axis = block.axis(block.build(figure, "townhouse"))
+    axis = block.axis(block.build(figure, "palazzo"))
     picture, ((axes,),) = sheet(1, 1, 7.0, 6.4)
     face = geopandas.GeoDataFrame(geometry=[block.face])
     open_map(axes, bounds_of(face, 0.45))

@@ -16,19 +16,26 @@ from shapely.geometry import MultiPoint  # noqa: E402
 WINDOW = Window("prague_bubenec_cz", 0, 0, 1e7, 1e7, "the largest block that streets enclose")
 #: Heights of neighbours are not in the data: made up, by number.
 LOW_M, STEP_M, STEPS = 12.0, 1.5, 5
-GREYS = [(176, 176, 172), (164, 164, 162), (188, 186, 180)]
+GREYS = [(206, 206, 200), (194, 194, 190), (216, 214, 206)]
+STREET_M = 9.0
+
+
+def polygons(shape):
+    return getattr(shape, "geoms", [shape])
 
 
 def draw(figure):
     block = EmptyBlock(figure, WINDOW)
-    building = block.build(figure, "townhouse")
+    building = block.build(figure, "palazzo")
     near = block.face.buffer(130)
     neighbours = [extruded(part, LOW_M + STEP_M * (i * 7 % STEPS), GREYS[i % len(GREYS)])
                   for i, (shape, inside) in enumerate(zip(block.footprints, block.inside))
-                  if not inside and shape.intersects(near) for part in getattr(shape, "geoms", [shape])]
+                  if not inside and shape.intersects(near) for part in polygons(shape)]
+    roads = [extruded(part, 0.05, (128, 128, 128)) for line in block.streets if line.intersects(near)
+             for part in polygons(line.intersection(near).buffer(STREET_M / 2))]
     camera = looking_at([building.model], -50.0, 38.0)
-    camera.distance_m *= 1.35
-    view = render(figure, "view", [building.model, merged(neighbours)], camera, 1500, 1000)
+    camera.distance_m *= 1.6
+    view = render(figure, "view", [building.model, merged(neighbours + roads)], camera, 1500, 1000)
     picture, ((axes,),) = sheet(1, 1, 10.0, 7.4)
     show(axes, view)
     caption(picture, figure)
