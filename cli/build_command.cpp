@@ -29,8 +29,19 @@ struct Arguments {
   std::string parts;
   std::string out;
   std::string method = "layered";
+  std::vector<std::string> settings;
   std::size_t k = 1;
 };
+
+OptionMap options_of(const Arguments& args) {
+  OptionMap options;
+  for (const std::string& setting : args.settings) {
+    auto [key, value] = parse_option(setting);
+    if (!options.emplace(key, std::move(value)).second)
+      throw InputError(fmt::format("--set {}: given twice", key));
+  }
+  return options;
+}
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -89,7 +100,7 @@ ExitStatus run(const Arguments& args) {
   expect_building_file(args.out);
   const buildings::BuildingDesign design = buildings::read_building_design(args.design);
   const sequences::AnySequenceSearch search =
-      sequences::sequence_searches().make(args.method, OptionMap{});
+      sequences::sequence_searches().make(args.method, options_of(args));
   const buildings::PartDatabase parts = parts_of(args.parts);
   const auto start = Clock::now();
   const PreparedBuilding prepared = buildings::prepare(design, parts);
@@ -150,6 +161,8 @@ void add_build_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--method", args->method, "how to search (plat list strategies)")
       ->capture_default_str();
+  command->add_option("--set", args->settings, "option of the method, key=value; may be repeated")
+      ->take_all();
   command->footer(
       "Example:\n  plat build design.json --parts townhouse --out house.glb\n"
       "Parts follow each other at the cost of the area by which their cross sections disagree; "

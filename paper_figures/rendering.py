@@ -130,7 +130,7 @@ def _mesh(model):
         shine = "specular 0.35 roughness 0.02 reflection 0.12" if blue > red + 20 else ""
         out.append(f"mesh2 {{ vertex_vectors {{ {len(used)},{points} }} face_indices {{ {len(faces)},{triangles} }}\n"
                    f"  pigment {{ srgb <{red / 255:.3f},{green / 255:.3f},{blue / 255:.3f}> }} "
-                   f"finish {{ ambient 0 diffuse 0.9 {shine} }} }}\n")
+                   f"finish {{ ambient 0.07 diffuse 0.88 {shine} }} }}\n")
     return "".join(out)
 
 

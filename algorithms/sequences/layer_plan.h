@@ -17,7 +17,7 @@ inline constexpr Row kNoRow = std::numeric_limits<Row>::max();
 /// Rows before and behind a run, so that a block of layers may reach beyond its ends.
 inline constexpr std::size_t kRunMargin = kMaxWidth;
 /// With a smaller least use, a block of layers would have too little in it.
-inline constexpr Amount kLeastRunUse = 4;
+inline constexpr Amount kLeastRunUse = 2;
 
 /// The consumed vectors that paths may have inside one zone, and what the zone's arcs and links add
 /// to them.

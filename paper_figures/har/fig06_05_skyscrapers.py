@@ -31,8 +31,8 @@ def draw(figure):
         design = example(f"tower_{ratio}")
         (towers[ratio],), _ = build(figure, f"tower_{ratio}", design, "tower", method="intermediate_graph")
 
-    picture, (axes,) = sheet(1, 4, 12.0, 6.2, gridspec_kw={"width_ratios": [1.5, 1, 1, 1]})
-    show(axes[0], picture_of(figure, "floors", floors, -70.0, 40.0, 900, 1100))
+    picture, (axes,) = sheet(1, 4, 12.0, 6.2, gridspec_kw={"width_ratios": [1.7, 1, 1, 1]})
+    show(axes[0], picture_of(figure, "floors", floors, -70.0, 48.0, 1100, 900))
     letter(axes[0], "a", f"{len(floors)} floor parts")
     for key, ratio, panel in zip("bcd", RATIOS, axes[1:]):
         show(panel, picture_of(figure, f"tower_{ratio}_view", [towers[ratio].model], -62.0, 12.0, 600, 1100))
