@@ -12,11 +12,13 @@ namespace {
 
 enum TowerSurface : std::uint32_t { kSlab, kCurtainWall, kMullion, kStone, kRoofMetal };
 
-const std::array<Material, 5> kMaterials{Material{"concrete", {206, 206, 202}},
-                                         {"curtain_wall", {92, 136, 168}},
-                                         {"mullion", {66, 72, 80}},
-                                         {"podium_stone", {150, 134, 112}},
-                                         {"roof_metal", {122, 132, 138}}};
+std::vector<Material> materials() {
+  return {{"concrete", {206, 206, 202}},
+          {"curtain_wall", {92, 136, 168}},
+          {"mullion", {66, 72, 80}},
+          {"podium_stone", {150, 134, 112}},
+          {"roof_metal", {122, 132, 138}}};
+}
 
 /// Widths of the sections, from podium to lantern.
 constexpr std::array<double, 6> kWidths_m{40.0, 34.0, 28.0, 22.0, 16.0, 10.0};
@@ -71,7 +73,7 @@ class FloorPart {
   [[nodiscard]] Part finish(const std::string& name, double height_m,
                             std::map<std::string, double> attributes) const {
     Mesh mesh;
-    mesh.materials.assign(kMaterials.begin(), kMaterials.end());
+    mesh.materials = materials();
     add_loft(mesh, rings_, bands_, kSlab);
     append(mesh, details_);
     for (Point3& p : mesh.vertices) p = as_stored(p);
@@ -83,7 +85,7 @@ class FloorPart {
 
  private:
   void mullions(double width_m, double z0, double z1) {
-    details_.materials.assign(kMaterials.begin(), kMaterials.end());
+    details_.materials = materials();
     const double half = 0.5 * width_m;
     const double reach = half - kChamfer * width_m;
     const int count = static_cast<int>(2.0 * reach / kMullionPitch_m);
@@ -131,7 +133,7 @@ Part make_podium() {
 }
 
 /// From a section to the tip of a spire or pyramid.
-Part make_spire(std::string name, std::size_t size, double height_m) {
+Part make_spire(const std::string& name, std::size_t size, double height_m) {
   FloorPart part(kWidths_m[size]);
   part.band(kWidths_m[size], 1.0, kSlab);
   part.band(kWidths_m[size] - 1.6, 1.0, kRoofMetal);
