@@ -46,12 +46,13 @@ class Filler {
     return graph_.tables[*graph_.zones[zone].table];
   }
 
-  void add_exits(std::size_t zone, Row row) {
+  /// Calls `visit(local node, cost)`.
+  template <class Visit>
+  void for_exits(std::size_t zone, Visit visit) {
     const Zone& here = graph_.zones[zone];
-    if (!may_end(here, consumed_)) return;
     auto exit = std::ranges::lower_bound(graph_.exits, here.first_node, {}, &Terminal::node);
     for (; exit != graph_.exits.end() && exit->node < here.first_node + here.size; ++exit)
-      *table_.at(zone, row, exit->node - here.first_node) = static_cast<Value>(exit->cost);
+      visit(exit->node - here.first_node, static_cast<Value>(exit->cost));
   }
 
   void add_links(std::size_t zone, Row row) {
@@ -106,13 +107,27 @@ class Filler {
       for (std::uint32_t c = 0; c < layers.class_count; ++c)
         next_runs_[c] = layers.run_after(consumed_, c);
       consumed_[*layers.run_dimension] += static_cast<Amount>(run.first);
-      for (std::uint32_t k = 0; k <= run.last - run.first; ++k) {
-        add_exits(zone, run.start + k);
+      add_exits(zone, run);
+      for (std::uint32_t k = 0; k <= run.last - run.first && !layers.targets.empty(); ++k) {
         add_links(zone, run.start + k);
         ++consumed_[*layers.run_dimension];
       }
       relax_run(zone, run);
     }
+  }
+
+  /// `consumed_`: at the first layer of the run. From the minimum on, a path may end in all others.
+  void add_exits(std::size_t zone, const ZoneLayers::Run& run) {
+    const std::uint32_t d = *plan_.zones[zone].run_dimension;
+    const Amount first = consumed_[d];
+    const Amount missing = std::max(graph_.zones[zone].bounds[d].min - first, 0);
+    const auto layers = static_cast<std::int64_t>(run.last - run.first) + 1 - missing;
+    consumed_[d] += missing;
+    if (layers > 0 && may_end(graph_.zones[zone], consumed_))
+      for_exits(zone, [&](std::size_t local, Value cost) {
+        std::fill_n(table_.at(zone, run.start, local) + missing, layers, cost);
+      });
+    consumed_[d] = first;
   }
 
   void relax_run(std::size_t zone, const ZoneLayers::Run& run) {
@@ -175,7 +190,9 @@ class Filler {
     next_rows_.resize(layers.class_count);
     for (Row row = layers.row_count; row-- > 0;) {
       layers.consumed(row, consumed_);
-      add_exits(zone, row);
+      if (may_end(graph_.zones[zone], consumed_))
+        for_exits(zone,
+                  [&](std::size_t local, Value cost) { *table_.at(zone, row, local) = cost; });
       add_links(zone, row);
       if (!graph_.zones[zone].table) continue;
       for (std::uint32_t c = 0; c < layers.class_count; ++c)
