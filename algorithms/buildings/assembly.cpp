@@ -181,6 +181,11 @@ class Assembler {
       }
       if (edge.face) rim_of_face[*edge.face].push_back(r);
     }
+    // One name for a vertex at two joints: faces find their rim edges by it.
+    for (std::size_t r = 0; r < rims_[placed].size(); ++r) {
+      chains_[placed][r].front() = *id[rims_[placed][r].from];
+      chains_[placed][r].back() = *id[rims_[placed][r].to];
+    }
     close_touching_caps(placed);
     for (std::size_t f = 0; f < part.mesh.faces.size(); ++f) {
       const Face& face = part.mesh.faces[f];

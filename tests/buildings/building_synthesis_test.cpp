@@ -131,6 +131,7 @@ TEST(BuildingSynthesis, CostsTheAreaOfItsWalls) {
   BuildingDesign design = design_of({{{0, 0}, {30, 0}, {30, 30}}, {{0, 1, kR}, {1, 2, kR}}, {}});
   design.preferences = {0.0, 0.0, 0};
   const PreparedBuilding prepared = prepare(design, kit("townhouse"));
+  const Building cheapest = best(prepared);
   int disagreeing = 0;
   for (const auto& path : best_paths(prepared, 1)) {
     const Building building = realise(prepared, path);
@@ -140,7 +141,7 @@ TEST(BuildingSynthesis, CostsTheAreaOfItsWalls) {
   // Dearer rows, put together at random: every transition is paid for by its wall.
   Rng rng = testing::property_rng("BuildingSynthesis.CostsTheAreaOfItsWalls");
   for (int i = 0; i < testing::iterations(20); ++i) {
-    Building building = best(prepared);
+    Building building = cheapest;
     auto& row = building.by_place.segments[0];
     for (auto& element : row) {
       do {
@@ -169,6 +170,31 @@ TEST(BuildingSynthesis, CostsTheAreaOfItsWalls) {
     disagreeing += expected > 1.0 ? 1 : 0;
   }
   EXPECT_GT(disagreeing, testing::iterations(10));
+}
+
+TEST(BuildingSynthesis, IsWatertightWhereSectionsDisagreeAtATee) {
+  // Parts at random, whether they fit or not, around a tee whose ports touch.
+  Rng rng = testing::property_rng("BuildingSynthesis.IsWatertightWhereSectionsDisagreeAtATee");
+  const PreparedBuilding prepared = prepare(
+      design_of({{{0, 0}, {30, 0}, {60, 0}, {30, -30}}, {{0, 1, kR}, {1, 2, kR}, {1, 3, kR}}, {}}),
+      kit("palazzo"));
+  Building building = best(prepared);
+  for (int i = 0; i < testing::iterations(25); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& allowed = prepared.problem.problem.structure.key_points[k].allowed;
+      building.by_place.key_points[k] = allowed[rng.index(allowed.size())];
+    }
+    for (auto& row : building.by_place.segments) {
+      do {
+        row = {static_cast<sequences::ElementIndex>(rng.index(prepared.problem.parts.size()))};
+      } while (!prepared.problem.problem.database.elements[row[0]].is_filling);
+    }
+    const AssembledBuilding assembled =
+        assemble(place(prepared.problem, *prepared.plan, prepared.database, building.by_place),
+                 prepared.database);
+    EXPECT_EQ(inspect_surface(assembled.mesh).unmatched_edge_count, 0U);
+    EXPECT_GT(assembled.wall_area_m2, 0.0);
+  }
 }
 
 TEST(BuildingSynthesis, KeepsBoundsOfEdges) {
