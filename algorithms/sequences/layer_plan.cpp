@@ -241,7 +241,7 @@ class Planner {
   }
 
   /// Follows the zone's uses from run to run.
-  void spread_forwards(ZoneLayers& layers) const {
+  void spread_forwards(ZoneLayers& layers) {
     const std::int64_t top = static_cast<std::int64_t>(extent(layers, *layers.run_dimension)) - 1;
     for (std::size_t r = 0; r < layers.runs.size(); ++r) {
       auto& run = layers.runs[r];
@@ -322,7 +322,7 @@ class Planner {
 
   /// By class: the run that it leads to.
   const std::vector<std::optional<std::size_t>>& next_runs(const ZoneLayers& layers,
-                                                           std::size_t run) const {
+                                                           std::size_t run) {
     amounts_.resize(graph_.dimension_count);
     next_runs_.resize(layers.class_count);
     layers.amounts_of(run, amounts_);
@@ -382,8 +382,8 @@ class Planner {
   std::uint64_t max_values_;
   std::uint64_t cells_ = 0;
   LayerPlan plan_;
-  mutable std::vector<Amount> amounts_;                        ///< scratch
-  mutable std::vector<std::optional<std::size_t>> next_runs_;  ///< scratch
+  std::vector<Amount> amounts_;                        ///< scratch
+  std::vector<std::optional<std::size_t>> next_runs_;  ///< scratch
 };
 
 }  // namespace
