@@ -62,7 +62,9 @@ def draw_study(axes, rows, exponents, config, study, quantity, styles):
     for strategy, own in rows.groupby("strategy", sort=False):
         done = own[own.status == "ok"]
         if len(done):
-            axes.plot(done.value, done[quantity], markersize=3.5, linewidth=1.1, label=strategy, **styles[strategy])
+            # What did not finish leaves a gap.
+            axes.plot(own.value, own[quantity].where(own.status == "ok"), markersize=3.5, linewidth=1.1, label=strategy,
+                      **styles[strategy])
         if len(done) and study["name"] == "street":
             axes.annotate(exponent_text(exponents, study["name"], strategy, quantity),
                           (done.value.iloc[-1], done[quantity].iloc[-1]), fontsize=6, color=styles[strategy]["color"])

@@ -10,7 +10,7 @@ LONG_M, FROM_M = 2000.0, 500.0
 
 
 def milliseconds(seconds):
-    return f"{1e3 * seconds:.3g}"
+    return f"{float(f'{1e3 * seconds:.3g}'):,g}"
 
 
 def cell(cells, study, value, strategy):
@@ -46,10 +46,10 @@ def goals(cells):
 def winners(cells):
     """Per study: who was the fastest at each value, of the strategies with options as they come."""
     own = cells[(cells.status == "ok") & (cells.strategy == cells["name"])]
-    print("\n| study | the fastest |\n| --- | --- |")
+    print("\n| study | the fastest [ms] |\n| --- | --- |")
     for study, rows in own.groupby("study", sort=False):
-        best = rows.loc[rows.groupby("value").total_s.idxmin()]
-        print(f"| {study} | " + ", ".join(f"{r.value:g}: `{r.strategy}` {milliseconds(r.total_s)} ms" for r in best.itertuples())
+        best = rows.loc[rows.groupby("value").total_cpu_s.idxmin()]
+        print(f"| {study} | " + ", ".join(f"{r.value:g}: `{r.strategy}` {milliseconds(r.total_cpu_s)}" for r in best.itertuples())
               + " |")
 
 
@@ -58,7 +58,7 @@ def zero_costs(cells):
     print("\n| share of free transitions, 100 m | `intermediate_graph` [ms] | `ranking` | `ranking (no pruning)` |")
     print("| --- | --- | --- | --- |")
     for value in cells[cells.study == "zero_costs"].value.unique():
-        times = [cell(cells, "zero_costs", value, s).total_s for s in ("intermediate_graph", "ranking", "ranking (no pruning)")]
+        times = [cell(cells, "zero_costs", value, s).total_cpu_s for s in ("intermediate_graph", "ranking", "ranking (no pruning)")]
         print(f"| {value:g} | " + " | ".join(milliseconds(t) for t in times) + " |")
 
 
@@ -71,7 +71,7 @@ def street_table(cells, published):
         fields = []
         for strategy in strategies:
             row = cell(cells, "street", value, strategy)
-            fields.append(milliseconds(row.total_s) if row.status == "ok" else row.status.replace("_", " "))
+            fields.append(milliseconds(row.total_cpu_s) if row.status == "ok" else row.status.replace("_", " "))
         thesis = {c["quantity"]: dict(zip(c["values"], c["numbers"])) for c in published}
         print(f"| {value:g} | " + " | ".join(fields) + f" | {1e3 * thesis['total_s'][value]:,.0f} |")
 
@@ -88,7 +88,7 @@ def main(arguments):
     print("| to reach | bound | measured | |\n| --- | --- | --- | --- |")
     for what, bound, measured, holds in goals(cells):
         print(f"| {what} | {bound} | {measured} | {'yes' if holds else 'no'} |")
-    print("\nMedian wall times in ms:\n")
+    print("\nMedian processor times in ms, here and below (steadier than the clock on a machine that does other things, and the same else):\n")
     street_table(cells, [c for c in manifest["config"]["published"] if c["study"] == "street"])
     print("\n| exponent of length | total time | processor time | states created |\n| --- | --- | --- | --- |")
     own = exponents[exponents.study == "street"]
