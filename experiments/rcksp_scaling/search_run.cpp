@@ -61,13 +61,22 @@ void search_into(SearchRun& run, const sequences::AnySequenceSearch& strategy,
   run.statistics = (*stream)->statistics();
 }
 
+/// AddressSanitizer reserves terabytes of addresses, which a limit would forbid.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kLimitsMemory = false;
+#elif defined(__has_feature)
+constexpr bool kLimitsMemory = !__has_feature(address_sanitizer);
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
 /// Never returns: the work of the guarded process.
 [[noreturn]] void run_as_child(int out, const sequences::AnySequenceSearch& strategy,
                                const sequences::SearchGraph& graph, std::uint64_t k,
                                const RunLimits& limits) {
   const auto bytes = static_cast<rlim_t>(limits.memory_mb * 1e6);
   const rlimit memory{bytes, bytes};
-  setrlimit(RLIMIT_AS, &memory);
+  if (kLimitsMemory) setrlimit(RLIMIT_AS, &memory);
   SearchRun run;
   try {
     harness::reset_peak_memory();
