@@ -3,9 +3,7 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <algorithm>
-#include <iostream>
 #include <mutex>
-#include <sstream>
 
 #include "buildings/mesh.h"
 #include "core/failure.h"
@@ -22,42 +20,27 @@ using HalfEdgeMesh = OpenMesh::PolyMesh_ArrayKernelT<MeshTraits>;
 /// leave no doubt.
 constexpr int kDigits = 12;
 
-/// OpenMesh reports to global streams: listens to them for the time of one call, and keeps them off
-/// the console.
-class OpenMeshMessages {
+/// OpenMesh reports to global streams: keeps them off the console for the time of one call. (To
+/// listen to them instead would leak, as they never free what is connected.)
+class QuietOpenMesh {
  public:
-  OpenMeshMessages() : lock_(mutex()) {
-    omlog().disconnect(std::clog);
-    for (auto* stream : {&omerr(), &omout()}) {
-      stream->disconnect(stream == &omerr() ? std::cerr : std::cout);
-      stream->connect(text_);
-    }
+  QuietOpenMesh() : lock_(mutex()) {
+    for (OpenMesh::mostream* stream : streams()) stream->disable();
   }
-  ~OpenMeshMessages() {
-    omlog().connect(std::clog);
-    for (auto* stream : {&omerr(), &omout()}) {
-      stream->disconnect(text_);
-      stream->connect(stream == &omerr() ? std::cerr : std::cout);
-    }
+  ~QuietOpenMesh() {
+    for (OpenMesh::mostream* stream : streams()) stream->enable();
   }
-  OpenMeshMessages(const OpenMeshMessages&) = delete;
-  OpenMeshMessages& operator=(const OpenMeshMessages&) = delete;
-
-  /// What was said, on one line; `fallback` where nothing was.
-  [[nodiscard]] std::string text(const char* fallback) const {
-    std::string out = text_.str();
-    std::ranges::replace(out, '\n', ' ');
-    while (!out.empty() && out.back() == ' ') out.pop_back();
-    return out.empty() ? fallback : out;
-  }
+  QuietOpenMesh(const QuietOpenMesh&) = delete;
+  QuietOpenMesh& operator=(const QuietOpenMesh&) = delete;
 
  private:
   static std::mutex& mutex() {
     static std::mutex instance;
     return instance;
   }
+  static std::array<OpenMesh::mostream*, 3> streams() { return {&omerr(), &omout(), &omlog()}; }
+
   std::lock_guard<std::mutex> lock_;
-  std::ostringstream text_;
 };
 
 void expect_known_ending(const std::filesystem::path& file) {
@@ -124,10 +107,10 @@ Mesh read_mesh(const std::filesystem::path& file) {
   source.request_face_colors();
   OpenMesh::IO::Options options = OpenMesh::IO::Options::FaceColor;
   {
-    const OpenMeshMessages messages;
+    const QuietOpenMesh quiet;
     if (!OpenMesh::IO::read_mesh(source, file.string(), options))
-      throw InputError(fmt::format("{}: cannot be read as a mesh: {}", file.string(),
-                                   messages.text("bad header or numbers")));
+      throw InputError(fmt::format("{}: cannot be read as a mesh: not a {} file, or cut off",
+                                   file.string(), file.extension().string()));
   }
   if (source.n_faces() == 0) throw InputError(fmt::format("{}: has no faces", file.string()));
   return from_openmesh(source, options.face_has_color(), file);
@@ -150,10 +133,10 @@ void write_mesh(const std::filesystem::path& file, const Mesh& mesh) {
     const auto& rgb = mesh.materials[face.material].rgb;
     target.set_color(handle, {rgb[0], rgb[1], rgb[2]});
   }
-  const OpenMeshMessages messages;
+  const QuietOpenMesh quiet;
   if (!OpenMesh::IO::write_mesh(target, file.string(), OpenMesh::IO::Options::FaceColor, kDigits))
-    throw InputError(fmt::format("{}: cannot be written: {}", file.string(),
-                                 messages.text("is the folder there, and open to writing?")));
+    throw InputError(fmt::format("{}: cannot be written; is the folder there, and open to writing?",
+                                 file.string()));
 }
 
 }  // namespace plat::buildings
