@@ -38,7 +38,7 @@ class ProblemWriter {
     out["cost_step"] = database_.cost_step;
     for (const Element& element : database_.elements) out["elements"].push_back(of(element));
     for (const Transition& each : database_.transitions) out["transitions"].push_back(of(each));
-    if (Json bounds = of(problem_.bounds); !bounds.empty()) out["bounds"] = bounds;
+    if (const Json bounds = of(problem_.bounds); !bounds.empty()) out["bounds"] = bounds;
     for (const KeyPoint& point : problem_.structure.key_points)
       out["key_points"].push_back(of(point));
     for (const Segment& segment : problem_.structure.segments)
@@ -74,7 +74,7 @@ class ProblemWriter {
   [[nodiscard]] Json of(const Element& element) const {
     Json out{{"name", element.name}};
     if (!element.classes.empty()) out["classes"] = element.classes;
-    if (Json amounts = uses(element.uses); !amounts.empty()) out["uses"] = amounts;
+    if (const Json amounts = uses(element.uses); !amounts.empty()) out["uses"] = amounts;
     for (std::size_t p = 0; p < element.arms.size(); ++p)
       out["arms"][std::string(kPortNames[p])] = uses(element.arms[p]);
     if (!element.is_filling) out["filling"] = false;
@@ -88,7 +88,7 @@ class ProblemWriter {
              {"cost", value_of(transition.cost, database_.cost_step)}};
     if (transition.from_port != Port::kRight) out["from_port"] = name(transition.from_port);
     if (transition.to_port != Port::kLeft) out["to_port"] = name(transition.to_port);
-    if (Json amounts = uses(transition.uses); !amounts.empty()) out["uses"] = amounts;
+    if (const Json amounts = uses(transition.uses); !amounts.empty()) out["uses"] = amounts;
     return out;
   }
   [[nodiscard]] Json of(const KeyPoint& point) const {
@@ -106,7 +106,7 @@ class ProblemWriter {
     if (segment.from_port != Port::kRight) out["from_port"] = name(segment.from_port);
     if (segment.to_port != Port::kLeft) out["to_port"] = name(segment.to_port);
     if (segment.is_reversed) out["reversed"] = true;
-    if (Json bounds = of(segment.bounds); !bounds.empty()) out["bounds"] = bounds;
+    if (const Json bounds = of(segment.bounds); !bounds.empty()) out["bounds"] = bounds;
     if (!segment.may_be_empty) out["may_be_empty"] = false;
     return out;
   }
