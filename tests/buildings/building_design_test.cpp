@@ -86,7 +86,9 @@ TEST(BuildingDesign, MovesAContourInwardsAndDropsWhatIsTooShort) {
   const ContourDesign design{{{0, 0}, {80, 0}, {80, 60}, {78, 62}, {0, 62}}, 10.0, 15.0, {}};
   const BuildingSkeleton skeleton = skeleton_of(design);
   ASSERT_EQ(skeleton.nodes.size(), 4U);
-  EXPECT_EQ(skeleton.edges.size(), 4U);
+  ASSERT_EQ(skeleton.edges.size(), 4U);
+  EXPECT_GT(signed_area_m2(skeleton.nodes), 0.0);
+  for (const SkeletonEdge& edge : skeleton.edges) EXPECT_EQ(edge.front, FrontSide::kRight);
   for (const Point node : skeleton.nodes)
     EXPECT_NEAR(std::abs(node.x - 40.0), 30.0, 1.5) << node.x << " " << node.y;
   EXPECT_THROW(static_cast<void>(skeleton_of({design.contour, 35.0, 15.0, {}})), InputError);

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
 
+#include "buildings/made_meshes.h"
 #include "buildings/part_kits.h"
 #include "core/failure.h"
 #include "sequences/sequence_search.h"
@@ -66,6 +68,24 @@ void expect_good(const PreparedBuilding& prepared, const Building& building) {
   for (std::size_t r = 0; r < prepared.plan->rows.size(); ++r) {
     const double length = length_m(prepared.plan->rows[r]);
     EXPECT_NEAR(quantised_m(prepared, building, r), length, 0.5 * kLengthQuantum_m + 1e-9);
+  }
+  // The ports of a part at a key point are as far from its node as its arms are stretched.
+  std::size_t placed = 0;
+  for (std::size_t k = 0; k < prepared.plan->key_points.size(); ++k) {
+    const auto index = prepared.problem.parts[building.by_place.key_points[k]];
+    if (!index) continue;
+    const Part& part = prepared.database.parts()[*index];
+    const SkeletonKeyPoint& key = prepared.plan->key_points[k];
+    for (std::size_t p = 0; p < part.ports.size(); ++p) {
+      const PortRole role = part.ports[p].role;
+      const auto row = role == PortRole::kLeft    ? key.left_row
+                       : role == PortRole::kRight ? key.right_row
+                                                  : key.stem_row;
+      const Point3 at = building.placed.parts[placed].targets[p].origin;
+      EXPECT_NEAR(distance(Point{at.x, at.y}, prepared.skeleton.nodes[key.node]),
+                  part.ports[p].arm_m * rounding(prepared.plan->rows[*row]).factor, 1e-9);
+    }
+    ++placed;
   }
   // Every joint lies on its row's line, where the front is on the right.
   for (const Joint& joint : building.placed.joints) {
@@ -173,12 +193,23 @@ TEST(BuildingSynthesis, CostsTheAreaOfItsWalls) {
 }
 
 TEST(BuildingSynthesis, IsWatertightWhereSectionsDisagreeAtATee) {
-  // Parts at random, whether they fit or not, around a tee whose ports touch.
+  // Parts at random, whether they fit or not, around a tee; the row at the stem is walked inwards.
   Rng rng = testing::property_rng("BuildingSynthesis.IsWatertightWhereSectionsDisagreeAtATee");
-  const PreparedBuilding prepared = prepare(
-      design_of({{{0, 0}, {30, 0}, {60, 0}, {30, -30}}, {{0, 1, kR}, {1, 2, kR}, {1, 3, kR}}, {}}),
-      kit("palazzo"));
+  const BuildingSkeleton skeleton{
+      {{0, 0}, {30, 0}, {60, 0}, {30, -30}}, {{0, 1, kR}, {1, 2, kR}, {1, 3, kL}}, {}};
+  const PreparedBuilding prepared = prepare(design_of(skeleton), kit("palazzo"));
   Building building = best(prepared);
+  const sequences::SequenceProblem& problem = prepared.problem.problem;
+  using Side = sequences::Port;
+  const auto cost = [&](sequences::ElementIndex from, sequences::ElementIndex to, Side in) {
+    for (const auto& transition : problem.database.transitions) {
+      if (transition.from == from && transition.to == to && transition.from_port == Side::kRight &&
+          transition.to_port == in)
+        return static_cast<double>(transition.cost) * kCostStep_m2 - Preferences{}.part_m2;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  };
+  int priced = 0;
   for (int i = 0; i < testing::iterations(25); ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
       const auto& allowed = prepared.problem.problem.structure.key_points[k].allowed;
@@ -193,7 +224,64 @@ TEST(BuildingSynthesis, IsWatertightWhereSectionsDisagreeAtATee) {
         assemble(place(prepared.problem, *prepared.plan, prepared.database, building.by_place),
                  prepared.database);
     EXPECT_EQ(inspect_surface(assembled.mesh).unmatched_edge_count, 0U);
-    EXPECT_GT(assembled.wall_area_m2, 0.0);
+    // Every wall is paid for, at the stem by sections seen from the other side.
+    double expected = 0.0;
+    for (std::size_t r = 0; r < 3; ++r) {
+      const SkeletonRow& row = prepared.plan->rows[r];
+      const Side in = row.to_port == PortRole::kStem ? Side::kStem : Side::kLeft;
+      const auto element = building.by_place.segments[r][0];
+      expected += cost(building.by_place.key_points[row.from], element, Side::kLeft);
+      expected += cost(element, building.by_place.key_points[row.to], in);
+    }
+    if (!std::isnan(expected)) {
+      EXPECT_NEAR(assembled.wall_area_m2, expected, 1e-2);
+      ++priced;
+    }
+  }
+  EXPECT_GT(priced, testing::iterations(10));
+}
+
+TEST(BuildingSynthesis, IsWatertightWhereThePortsOfATeeTouch) {
+  // The tee is a tower whose ports meet at its edges; its neighbours end half way up those.
+  std::vector<Part> parts;
+  parts.push_back(make_part("tower",
+                            {.part_class = PartClass::kTee,
+                             .stem_side = StemSide::kFront,
+                             .left_m = 5,
+                             .right_m = 5,
+                             .stem_m = 5},
+                            testing::box_mesh({-5, -5, 0}, {5, 5, 9}), {}));
+  parts.push_back(make_part("wing", {.part_class = PartClass::kMiddle, .right_m = 4},
+                            testing::box_mesh({0, -5, 0}, {4, 5, 6}), {}));
+  parts.push_back(make_part("high", {.part_class = PartClass::kMiddle, .right_m = 6},
+                            testing::box_mesh({0, -5, 0}, {6, 5, 7}), {}));
+  parts.push_back(make_part("left", {.part_class = PartClass::kLeftEnd, .right_m = 2},
+                            testing::box_mesh({0, -5, 0}, {2, 5, 6}), {}));
+  parts.push_back(make_part("right", {.part_class = PartClass::kRightEnd, .left_m = 2},
+                            testing::box_mesh({-2, -5, 0}, {0, 5, 6}), {}));
+  const PartDatabase boxes(
+      {.name = "boxes", .summary = "", .origin = "", .kit = {}, .transition_limit_m2 = {}}, parts);
+  const PreparedBuilding prepared = prepare(
+      design_of({{{0, 0}, {11, 0}, {22, 0}, {11, -13}}, {{0, 1, kR}, {1, 2, kR}, {1, 3, kR}}, {}}),
+      boxes);
+  const Building building = best(prepared);
+  expect_good(prepared, building);
+  EXPECT_EQ(inspect_surface(building.assembled.mesh).shell_count, 1U);
+}
+
+TEST(BuildingSynthesis, PutsPodiumsBelowAndCrownsAbove) {
+  const PartDatabase& tower = kit("tower");
+  const BuildingProblem problem = tower_problem({120.0, 1528.0, 10.0, {}}, tower);
+  const auto has = [&](sequences::ElementIndex element, const char* name) {
+    return attribute(tower.parts()[*problem.parts[element]], name) > 0.0;
+  };
+  for (const auto& transition : problem.problem.database.transitions) {
+    EXPECT_FALSE(has(transition.from, "crowns"));
+    EXPECT_FALSE(has(transition.to, "podiums"));
+  }
+  for (sequences::ElementIndex e = 0; e < problem.parts.size(); ++e) {
+    EXPECT_EQ(problem.problem.database.elements[e].is_front, has(e, "podiums"));
+    EXPECT_EQ(problem.problem.database.elements[e].is_back, has(e, "crowns"));
   }
 }
 
