@@ -269,6 +269,42 @@ TEST(BuildingSynthesis, IsWatertightWhereThePortsOfATeeTouch) {
   EXPECT_EQ(inspect_surface(building.assembled.mesh).shell_count, 1U);
 }
 
+TEST(BuildingSynthesis, SeesAStemFromTheSideOfTheRowThatComesIn) {
+  // Rows are higher on their left. The stem points south and is higher in the east: on the left of
+  // who walks out, on the right of who comes in.
+  CellSolid tee;
+  tee.fill({{-6, -4, 0}, {6, 4, 6}}, 0);
+  tee.fill({{-4, -6, 0}, {4, -4, 3}}, 0);
+  tee.fill({{1, -6, 3}, {4, -4, 6}}, 0);
+  Mesh mesh = tee.surface([](Point3 p) { return p; });
+  mesh.materials = testing::empty_mesh().materials;
+  const PartShape shape{.part_class = PartClass::kTee,
+                        .stem_side = StemSide::kFront,
+                        .left_m = 6,
+                        .right_m = 6,
+                        .stem_m = 6};
+  std::vector<Part> parts;
+  parts.push_back(make_part("tee", shape, mesh, {}));
+  parts.push_back(make_part("row", {.part_class = PartClass::kMiddle, .right_m = 4},
+                            testing::crooked_row(0, 4), {}));
+  parts.push_back(make_part("left", {.part_class = PartClass::kLeftEnd, .right_m = 2},
+                            testing::crooked_row(0, 2), {}));
+  parts.push_back(make_part("right", {.part_class = PartClass::kRightEnd, .left_m = 2},
+                            testing::crooked_row(-2, 0), {}));
+  const PartDatabase crooked(
+      {.name = "", .summary = "", .origin = "", .kit = {}, .transition_limit_m2 = {}}, parts);
+  const double bar_m2 = 2.0 * 5.0 * 3.0;
+  for (const auto& [front, stem_m2] : {std::pair(kR, 0.0), std::pair(kL, 18.0)}) {
+    BuildingDesign design = design_of(
+        {{{0, 0}, {12, 0}, {24, 0}, {12, -12}}, {{0, 1, kR}, {1, 2, kR}, {1, 3, front}}, {}});
+    design.preferences.part_m2 = 0.0;
+    const Building building = best(prepare(design, crooked));
+    EXPECT_NEAR(building.assembled.wall_area_m2, bar_m2 + stem_m2, 1e-9);
+    EXPECT_NEAR(static_cast<double>(building.arrangement.cost) * kCostStep_m2, bar_m2 + stem_m2,
+                1e-9);
+  }
+}
+
 TEST(BuildingSynthesis, PutsPodiumsBelowAndCrownsAbove) {
   const PartDatabase& tower = kit("tower");
   const BuildingProblem problem = tower_problem({120.0, 1528.0, 10.0, {}}, tower);

@@ -77,6 +77,9 @@ class Build(unittest.TestCase):
         for line in (self.folder / "house.obj").read_text(encoding="utf-8").splitlines():
             if line.startswith("usemtl "):
                 self.assertIn(f"newmtl {line.split()[1]}\n", materials)
+        lines = (self.folder / "house.obj").read_text(encoding="utf-8").splitlines()
+        corners = {int(word) for line in lines if line.startswith("f ") for word in line.split()[1:]}
+        self.assertEqual((min(corners), max(corners)), (1, sum(line.startswith("v ") for line in lines)))
         costs = [self.report(f"house{i}.json")["cost_m2"] for i in ("", "_2", "_3")]
         self.assertEqual(costs, sorted(costs))
 
