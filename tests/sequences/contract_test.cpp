@@ -247,7 +247,7 @@ TEST(SequenceContract, HoldsForEveryStrategyOnRandomProblems) {
   const auto& menu = sequence_searches();
   std::map<std::string, int> gave_up;
   int cases = 0;
-  for_random_cases("contract", iterations(750), [&](const Case& one) {
+  for_random_cases("contract", iterations(1000), [&](const Case& one) {
     ++cases;
     for (const std::string& name : menu.names()) {
       const auto wrong = why_not_in_contract(impatient(name), one.graph, one.best, one.k);
