@@ -15,6 +15,7 @@
 #include "diagnosis_output.h"
 #include "sequences/diagnosis.h"
 #include "sequences/sequence_search.h"
+#include "set_option.h"
 
 namespace plat::cli {
 namespace {
@@ -32,16 +33,6 @@ struct Arguments {
   std::vector<std::string> settings;
   std::size_t k = 1;
 };
-
-OptionMap options_of(const Arguments& args) {
-  OptionMap options;
-  for (const std::string& setting : args.settings) {
-    auto [key, value] = parse_option(setting);
-    if (!options.emplace(key, std::move(value)).second)
-      throw InputError(fmt::format("--set {}: given twice", key));
-  }
-  return options;
-}
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -100,7 +91,7 @@ ExitStatus run(const Arguments& args) {
   expect_building_file(args.out);
   const buildings::BuildingDesign design = buildings::read_building_design(args.design);
   const sequences::AnySequenceSearch search =
-      sequences::sequence_searches().make(args.method, options_of(args));
+      sequences::sequence_searches().make(args.method, options_from_settings(args.settings));
   const buildings::PartDatabase parts = parts_of(args.parts);
   const auto start = Clock::now();
   const PreparedBuilding prepared = buildings::prepare(design, parts);

@@ -11,6 +11,7 @@
 #include "harness/edit_script.h"
 #include "output_file.h"
 #include "parcels/block_subdivider.h"
+#include "set_option.h"
 
 namespace plat::cli {
 namespace {
@@ -25,11 +26,7 @@ struct Arguments {
 };
 
 void read_style(const Arguments& args, editing::Style& style) {
-  for (const std::string& setting : args.settings) {
-    auto [key, value] = parse_option(setting);
-    if (!style.options.emplace(key, std::move(value)).second)
-      throw InputError(fmt::format("--set {}: given twice", key));
-  }
+  style.options = options_from_settings(args.settings);
   static_cast<void>(parcels::block_subdividers().make(style.strategy, style.options));
 }
 

@@ -12,6 +12,7 @@
 #include "graph_output.h"
 #include "sequence_output.h"
 #include "sequences/problem_file.h"
+#include "set_option.h"
 
 namespace plat::cli {
 namespace {
@@ -36,16 +37,6 @@ struct Arguments {
 
 /// More sequences than this are long work.
 constexpr std::size_t kProgressFrom = 10'000;
-
-OptionMap options_of(const Arguments& args) {
-  OptionMap options;
-  for (const std::string& setting : args.settings) {
-    auto [key, value] = parse_option(setting);
-    if (!options.emplace(key, std::move(value)).second)
-      throw InputError(fmt::format("--set {}: given twice", key));
-  }
-  return options;
-}
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -172,7 +163,8 @@ std::string explain(const Arguments& args, const SequenceProblem& problem,
 }
 
 ExitStatus run(const Arguments& args) {
-  const auto method = sequences::sequence_searches().make(args.method, options_of(args));
+  const auto method =
+      sequences::sequence_searches().make(args.method, options_from_settings(args.settings));
   const sequences::ReadProblem read = sequences::read_problem(args.problem);
   const SequenceProblem& problem = read.problem;
   const CompiledProblem compiled = compile_named(problem, args.problem);

@@ -12,6 +12,7 @@
 #include "harness/subdivision.h"
 #include "harness/trace_layers.h"
 #include "output_file.h"
+#include "set_option.h"
 
 namespace plat::cli {
 namespace {
@@ -31,11 +32,7 @@ struct Arguments {
 harness::StrategyConfig strategy_of(const Arguments& args) {
   harness::StrategyConfig strategy;
   strategy.name = strategy.label = args.strategy;
-  for (const std::string& setting : args.settings) {
-    auto [key, value] = parse_option(setting);
-    if (!strategy.options.emplace(key, std::move(value)).second)
-      throw InputError(fmt::format("--set {}: given twice", key));
-  }
+  strategy.options = options_from_settings(args.settings);
   static_cast<void>(parcels::block_subdividers().make(
       strategy.name, strategy.options));  // before any file is read
   return strategy;
