@@ -8,11 +8,11 @@ set -euo pipefail
 run_packages=(
   g++ cmake ninja-build ccache mold git ca-certificates
   libboost-dev libcgal-dev libcli11-dev libexpected-dev libfmt-dev libgdal-dev libgeos-dev libgmp-dev libmpfr-dev
-  libopenmesh-dev libssl-dev libtbb-dev libtinygltf-dev nlohmann-json3-dev
+  libcairo2-dev libopenmesh-dev libssl-dev libtbb-dev libtinygltf-dev nlohmann-json3-dev
   gdal-bin povray python3 python3-matplotlib python3-pandas python3-geopandas)
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev clang-format-19
-  jupyter-nbconvert python3-ipykernel python3-nbformat python3-jsonschema)
+  jupyter-nbconvert python3-ipykernel python3-nbformat python3-jsonschema python3-networkx python3-osmnx)
 dev_packages=(clang-19 clang-tidy-19 libclang-rt-19-dev)
 
 level="${1:-run}"
