@@ -7,8 +7,7 @@
 #include "blocks/edge_labels.h"
 #include "footprints/morphological_tessellation.h"
 #include "harness/observed_layers.h"
-#include "streets/network_cleaning.h"
-#include "streets/street_import.h"
+#include "harness/observed_streets.h"
 #include "streets/street_width.h"
 
 namespace plat::harness {
@@ -19,45 +18,12 @@ using geodata::GeometryKind;
 using geodata::Layer;
 using geodata::LayerMapping;
 
-std::string field(const LayerMapping& mapping, std::string_view name) {
-  const auto it = mapping.fields.find(std::string(name));
-  return it == mapping.fields.end() ? std::string() : it->second;
-}
-
-streets::StreetFields street_fields(const LayerMapping& mapping) {
-  streets::StreetFields fields;
-  fields.name = field(mapping, "name");
-  fields.street_class = field(mapping, "class");
-  fields.width = field(mapping, "width");
-  fields.lanes = field(mapping, "lanes");
-  fields.level = field(mapping, "layer");
-  fields.structure = field(mapping, "structure");
-  if (const std::string major = field(mapping, "major"); !major.empty()) {
-    fields.street_class = major;
-    fields.class_prefix = "major_";
-    fields.default_class = "local";
-  }
-  return fields;
-}
-
-Layer read_mapped(const LayerMapping& mapping, const std::filesystem::path& folder,
-                  GeometryKind kind, const std::optional<geodata::LocalFrame>& frame) {
-  geodata::ReadOptions options;
-  options.kind = kind;
-  options.where = mapping.where;
-  options.frame = frame;
-  return geodata::read_layer(geodata::source_of(mapping, folder), options);
-}
-
-void read_streets(const LayerMapping& mapping, const std::filesystem::path& folder,
+void take_streets(const LayerMapping& mapping, const std::filesystem::path& folder,
                   const std::optional<geodata::LocalFrame>& frame, City& city) {
-  const Layer layer = read_mapped(mapping, folder, GeometryKind::kLine, frame);
-  city.frame = layer.frame;
-  streets::RawStreets raw = streets::import_streets(layer, street_fields(mapping));
-  streets::CleanNetwork clean = streets::build_network(raw.streets);
-  city.network = std::move(clean.network);
-  city.repairs = std::move(raw.repairs);
-  city.repairs.insert(city.repairs.end(), clean.repairs.begin(), clean.repairs.end());
+  ObservedStreets observed = read_streets(mapping, folder, frame);
+  city.frame = observed.frame;
+  city.network = std::move(observed.network);
+  city.repairs = std::move(observed.repairs);
 }
 
 City load_observed(const Dataset& dataset, Jobs jobs, const std::filesystem::path& folder) {
@@ -68,8 +34,8 @@ City load_observed(const Dataset& dataset, Jobs jobs, const std::filesystem::pat
   const Layer layer = read_mapped(*mapping.parcels, folder, GeometryKind::kPolygon, std::nullopt);
   city.frame = layer.frame;
   const std::vector<blocks::ObservedParcel> observed =
-      parcels_of(layer, field(*mapping.parcels, "id"));
-  if (mapping.streets) read_streets(*mapping.streets, folder, layer.frame, city);
+      parcels_of(layer, mapped_field(*mapping.parcels, "id"));
+  if (mapping.streets) take_streets(*mapping.streets, folder, layer.frame, city);
 
   blocks::BlocksFromParcels found = blocks::blocks_from_parcels(observed, {}, jobs);
   city.failures = std::move(found.failures);
@@ -109,7 +75,7 @@ City load_tessellated(const Dataset& dataset, Jobs jobs, const std::filesystem::
     throw InputError(fmt::format(
         "data set \"{}\": streets and footprints are needed to tessellate plots", dataset.name));
   }
-  read_streets(*mapping.streets, folder, std::nullopt, city);
+  take_streets(*mapping.streets, folder, std::nullopt, city);
   streets::assign_widths(city.network, {}, {}, jobs);
   const Layer footprints =
       read_mapped(*mapping.footprints, folder, GeometryKind::kPolygon, city.frame);
