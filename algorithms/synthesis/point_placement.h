@@ -10,11 +10,11 @@ enum class Mirroring { kNone, kAcrossEast };  ///< kAcrossEast: north and south 
 
 /// Where a copy of a point set goes: mirrored, scaled and turned about `pivot`, then moved.
 struct Placement {
-  Point pivot;
+  Point pivot{};
   Mirroring mirroring = Mirroring::kNone;
   double scale = 1.0;         ///< > 0
   double rotation_rad = 0.0;  ///< counter-clockwise
-  Point translation;
+  Point translation{};
 };
 
 Point placed(Point place, const Placement& placement);
