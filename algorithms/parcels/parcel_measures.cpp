@@ -160,19 +160,26 @@ std::vector<NeighbourPair> neighbour_pairs(std::vector<Shared> shared) {
 }
 
 /// Where several street edges face the same part of a parcel's edge, that part counts once.
-void add_frontage(std::vector<Stretch> fronting, const std::vector<Edge>& edges,
-                  std::vector<ParcelMeasures>& measures) {
+std::vector<Stretch> without_overlap(std::vector<Stretch> fronting) {
   std::sort(fronting.begin(), fronting.end(), [](const Stretch& a, const Stretch& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.begin < b.begin;
   });
-  for (std::size_t i = 0; i < fronting.size();) {
-    const std::size_t edge = fronting[i].edge;
+  std::vector<Stretch> apart;
+  for (const Stretch& stretch : fronting) {
+    const bool continues = !apart.empty() && apart.back().edge == stretch.edge;
+    const double begin = continues ? std::max(apart.back().end, stretch.begin) : stretch.begin;
+    if (stretch.end > begin) apart.push_back({stretch.edge, begin, stretch.end});
+  }
+  return apart;
+}
+
+void add_frontage(std::vector<Stretch> fronting, const std::vector<Edge>& edges,
+                  std::vector<ParcelMeasures>& measures) {
+  const std::vector<Stretch> apart = without_overlap(std::move(fronting));
+  for (std::size_t i = 0; i < apart.size();) {
+    const std::size_t edge = apart[i].edge;
     double covered = 0.0;
-    double reached = 0.0;
-    for (; i < fronting.size() && fronting[i].edge == edge; ++i) {
-      covered += std::max(0.0, fronting[i].end - std::max(reached, fronting[i].begin));
-      reached = std::max(reached, fronting[i].end);
-    }
+    for (; i < apart.size() && apart[i].edge == edge; ++i) covered += apart[i].end - apart[i].begin;
     measures[edges[edge].owner].frontage_m += covered;
   }
 }
@@ -248,6 +255,18 @@ std::vector<int> parcel_rows(const blocks::Block& block, std::span<const Polygon
     }
   }
   return rows;
+}
+
+std::vector<std::vector<Segment>> street_fronts(const blocks::Block& block,
+                                                std::span<const Polygon> parcels) {
+  const std::vector<Edge> edges = sorted_edges(block, parcels);
+  std::vector<std::vector<Segment>> fronts(parcels.size());
+  for (const Stretch& stretch : without_overlap(find_contacts(edges).fronting)) {
+    const Edge& edge = edges[stretch.edge];
+    fronts[edge.owner].push_back({edge.segment.a + stretch.begin * edge.direction,
+                                  edge.segment.a + stretch.end * edge.direction});
+  }
+  return fronts;
 }
 
 std::span<const MeasureColumn> measure_columns() {

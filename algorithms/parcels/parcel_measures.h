@@ -53,6 +53,11 @@ std::vector<ParcelMeasures> measure_parcels(const blocks::Block& block,
 /// where no street is reached over neighbours. Neighbours and access are those of measure_parcels.
 std::vector<int> parcel_rows(const blocks::Block& block, std::span<const Polygon> parcels);
 
+/// Per parcel, the parts of its boundary along street edges of the block, land on the left; their
+/// lengths sum to frontage_m.
+std::vector<std::vector<Segment>> street_fronts(const blocks::Block& block,
+                                                std::span<const Polygon> parcels);
+
 enum class MeasureKind : std::uint8_t {
   kContinuous,
   kInteger,
