@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "core/box.h"
 #include "core/failure.h"
@@ -12,15 +10,15 @@
 #include "geodata/gdal_internal.h"
 #include "geodata/layer_io.h"
 #include "geodata/ogr_geometry_internal.h"
+#include "geodata/projection_internal.h"
 
 namespace plat::geodata {
 namespace {
 
+using detail::is_finite;
+using detail::Projection;
 using detail::QuietGdal;
 using detail::SpatialReference;
-
-constexpr double kOriginStep_m = 1000.0;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls visit(points) for every ring, line and set of points; `FeatureT` may be const.
 template <class FeatureT, class Visit>
@@ -33,8 +31,6 @@ void for_each_chain(FeatureT& feature, Visit visit) {
   if (!feature.points.empty()) visit(feature.points);
 }
 
-bool is_finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 Box finite_box(const std::vector<Feature>& features) {
   Box box;
   for (const Feature& feature : features) {
@@ -45,63 +41,6 @@ Box finite_box(const std::vector<Feature>& features) {
     });
   }
   return box;
-}
-
-/// Maps points from one reference to another; what cannot be mapped becomes NaN.
-class Projection {
- public:
-  Projection(const OGRSpatialReference& from, const OGRSpatialReference& to) {
-    if (from.IsSame(&to)) return;
-    transformation_.reset(OGRCreateCoordinateTransformation(&from, &to));
-    expects(transformation_ != nullptr, "two valid references have a transformation");
-  }
-
-  [[nodiscard]] Point operator()(Point p) const {
-    std::vector<Point> one{p};
-    apply(one);
-    return one.front();
-  }
-
-  void apply(std::vector<Point>& points) const {
-    for (Point& p : points) {
-      if (!is_finite(p)) p = {kNaN, kNaN};
-    }
-    if (transformation_ == nullptr) return;
-    std::vector<double> x(points.size());
-    std::vector<double> y(points.size());
-    std::vector<int> ok(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      x[i] = points[i].x;
-      y[i] = points[i].y;
-    }
-    transformation_->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr,
-                               ok.data());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Point mapped{x[i], y[i]};
-      points[i] =
-          ok[i] != 0 && is_finite(points[i]) && is_finite(mapped) ? mapped : Point{kNaN, kNaN};
-    }
-  }
-
- private:
-  std::unique_ptr<OGRCoordinateTransformation> transformation_;
-};
-
-/// Whether a length in this CRS is, but for the projection's small error, a length on the ground.
-bool is_metric(const OGRSpatialReference& reference) {
-  if (reference.IsProjected() == 0 || reference.GetLinearUnits() != 1.0) return false;
-  const char* method = reference.GetAttrValue("PROJECTION");
-  return method == nullptr ||
-         (!EQUAL(method, SRS_PT_MERCATOR_AUXILIARY_SPHERE) && !EQUAL(method, SRS_PT_MERCATOR_1SP) &&
-          !EQUAL(method, SRS_PT_MERCATOR_2SP) &&
-          !EQUAL(method, "Popular_Visualisation_Pseudo_Mercator"));
-}
-
-SpatialReference utm_reference(const OGRSpatialReference& source, Point center) {
-  const Point degrees = Projection(source, *detail::reference_from_epsg(4326))(center);
-  if (!is_finite(degrees)) return nullptr;
-  const int zone = std::clamp(static_cast<int>(std::floor((degrees.x + 180.0) / 6.0)) + 1, 1, 60);
-  return detail::reference_from_epsg((degrees.y < 0.0 ? 32700 : 32600) + zone);
 }
 
 /// "did you mean" or the whole list: what a person needs to name the layer.
@@ -318,19 +257,8 @@ LocalFrame localize(std::vector<Feature>& features, const OGRSpatialReference& s
     if (box.is_empty())
       throw InputError(
           fmt::format("{}: no feature has a finite coordinate; repair the file", name));
-    target.reset(is_metric(source) ? source.Clone()
-                                   : utm_reference(source, box.center()).release());
-    const Point center = target ? Projection(source, *target)(box.center()) : Point{kNaN, kNaN};
-    if (!is_finite(center)) {
-      throw InputError(
-          fmt::format("{}: its centre ({}, {}) is not a place in its coordinate reference system "
-                      "\"{}\"; set the "
-                      "right one: ogr2ogr -a_srs",
-                      name, box.center().x, box.center().y, source.GetName()));
-    }
-    frame.crs_wkt = detail::wkt_of(*target);
-    frame.origin = {std::round(center.x / kOriginStep_m) * kOriginStep_m,
-                    std::round(center.y / kOriginStep_m) * kOriginStep_m};
+    frame = detail::choose_frame(source, box.center(), name, "ogr2ogr");
+    target = detail::reference_from_wkt(frame.crs_wkt);
   }
   const Projection project(source, *target);
   for (Feature& feature : features) {
