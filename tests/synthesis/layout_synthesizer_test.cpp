@@ -280,7 +280,7 @@ TEST(LayoutSynthesizer, ParcelsThatDoNotCoverTheirBlockAreARow) {
 TEST(LayoutSynthesizer, AFaceTooSmallForABlockIsARow) {
   LayoutSite site;
   site.growth.points = grid_points(3, 2, {160.0, 80.0}, 500.0);
-  for (const auto& point : grid_points(1, 2, {160.0, 80.0}, 500.0, {331.0, 0.0}))
+  for (const auto& point : grid_points(1, 2, {160.0, 80.0}, 500.0, {330.25, 0.0}))
     site.growth.points.push_back(point);
   const Layout layout = grid_layout(site);
   ASSERT_EQ(layout.failures.size(), 1U);
