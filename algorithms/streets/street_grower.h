@@ -20,8 +20,8 @@ namespace plat::streets {
 /// A street of the existing network that may go on from one of its nodes.
 struct OpenEnd {
   std::uint32_t node = 0;  ///< of the existing network
-  PassingStreet street;    ///< its style
-  Point heading;           ///< unit vector: the direction in which the street would go straight on
+  PassingStreet street{};  ///< its style
+  Point heading{};         ///< unit vector: the direction in which the street would go straight on
 
   friend bool operator==(const OpenEnd&, const OpenEnd&) = default;
 };

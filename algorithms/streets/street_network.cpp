@@ -16,6 +16,8 @@ std::string_view width_source_name(WidthSource source) {
       return "class";
     case WidthSource::kAssumed:
       return "assumed";
+    case WidthSource::kExample:
+      return "example";
   }
   return "none";
 }

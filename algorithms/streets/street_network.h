@@ -19,6 +19,7 @@ enum class WidthSource {
   kGap,        ///< measured: distance between the parcels or blocks on both sides
   kClass,      ///< table by street class
   kAssumed,    ///< none of these: a default
+  kExample,    ///< grown (street_grower.h): that of the example
 };
 std::string_view width_source_name(WidthSource source);
 

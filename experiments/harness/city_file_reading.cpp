@@ -110,8 +110,9 @@ bool has_features(const std::string& file, std::string_view name) {
 
 streets::WidthSource width_source_named(std::string_view name) {
   using streets::WidthSource;
-  for (const WidthSource source : {WidthSource::kAttribute, WidthSource::kLanes, WidthSource::kGap,
-                                   WidthSource::kClass, WidthSource::kAssumed}) {
+  for (const WidthSource source :
+       {WidthSource::kAttribute, WidthSource::kLanes, WidthSource::kGap, WidthSource::kClass,
+        WidthSource::kAssumed, WidthSource::kExample}) {
     if (streets::width_source_name(source) == name) return source;
   }
   return WidthSource::kNone;
