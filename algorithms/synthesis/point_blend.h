@@ -37,8 +37,8 @@ enum class BlendPositions : std::uint8_t {
 };
 
 struct BlendOptions {
-  QuadtreeOptions quadtree;
-  Spacing spacing;
+  QuadtreeOptions quadtree{};
+  Spacing spacing{};
   BlendPositions positions = BlendPositions::kThinned;
   static constexpr auto fields() {
     return std::tuple{EnumField{"positions",

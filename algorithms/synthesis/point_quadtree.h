@@ -42,10 +42,10 @@ struct QuadtreeNode {
   Point low;  ///< frame coordinates, metres
   Point high;
   LeafReason reason = LeafReason::kNotALeaf;
-  std::uint32_t first_child = 0;         ///< of four that follow one another; where not a leaf
-  std::vector<std::uint32_t> points;     ///< of the node and all below it, ascending
-  std::vector<LevelStyle> levels;        ///< ascending by hierarchy
-  std::optional<double> parcel_area_m2;  ///< mean over the points that know one
+  std::uint32_t first_child = 0;           ///< of four that follow one another; where not a leaf
+  std::vector<std::uint32_t> points{};     ///< of the node and all below it, ascending
+  std::vector<LevelStyle> levels{};        ///< ascending by hierarchy
+  std::optional<double> parcel_area_m2{};  ///< mean over the points that know one
 
   [[nodiscard]] bool is_leaf() const { return reason != LeafReason::kNotALeaf; }
   [[nodiscard]] double area_m2() const { return (high.x - low.x) * (high.y - low.y); }
