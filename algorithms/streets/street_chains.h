@@ -18,8 +18,8 @@ struct StreetChain {
   };
   std::vector<Piece> pieces;
   std::vector<std::uint32_t> nodes;  ///< one more than pieces; first == last where it is closed
-  bool is_closed = false;
-  int hierarchy = 0;  ///< 0 until assign_hierarchy()
+  bool is_closed = false;  ///< goes on from its last piece to its first, and so has no ends
+  int hierarchy = 0;       ///< 0 until assign_hierarchy() (street_hierarchy.h)
 };
 
 /// What makes two pieces that meet at a node one street.
@@ -31,7 +31,7 @@ enum class Continuity {
 
 struct ChainOptions {
   Continuity continuity = Continuity::kNameOrDirection;
-  double max_turn_rad = std::numbers::pi / 4;  ///< a street does not turn more at a node
+  double max_turn_rad = std::numbers::pi / 4;  ///< a street joined by direction turns no more
   static constexpr auto fields() {
     return std::tuple{EnumField{"continuity",
                                 &ChainOptions::continuity,
@@ -40,36 +40,37 @@ struct ChainOptions {
                                  EnumName{"name_or_direction", Continuity::kNameOrDirection}},
                                 "What makes two pieces that meet at a node one street."},
                       Field{"max_turn_rad", &ChainOptions::max_turn_rad, 0.0, std::numbers::pi,
-                            "A street does not turn more than this at a node."}};
+                            "A street does not turn more than this at a node, unless its name "
+                            "goes on."}};
   }
 };
 
-/// Every street of the network in exactly one chain.
+/// Joins the pieces of a network to streets: at every node the straightest pair first, then the
+/// straightest of those that are left. An equal name goes on through any turn but one that goes
+/// back; a ring that nothing else meets is closed whatever its shape.
+///
+/// Guarantees: 1. every street of the network is in exactly one chain, once;  2. the chains, their
+/// order and their sense do not depend on the order or the sense of the network's streets;  3. they
+/// are in the order of their lines, each walked in the sense that comes first.
+/// A chain may pass a node several times: a loop that ends where it began, a street that crosses
+/// itself.
+/// Complexity: O(n log n), and the squares of the nodes' degrees.
+/// Paper: [AVB08, Sec. 5] takes each poly-line of the source as a street. Deviation: sources cut
+/// them at crossings, so they are put together (ADR 0026).
 std::vector<StreetChain> chains_of(const StreetNetwork& network, const ChainOptions& options = {});
 
-/// What makes a street important.
-enum class Importance { kLength, kWidth, kLengthTimesWidth };
+/// The line of a chain from its first node to its last.
+Polyline line_of(const StreetNetwork& network, const StreetChain& chain);
 
-struct HierarchyOptions {
-  double main_share_01 = 0.03;  ///< of the chains, at least one, become level 0
-  Importance importance = Importance::kLengthTimesWidth;
-  static constexpr auto fields() {
-    return std::tuple{
-        Field{"main_share_01", &HierarchyOptions::main_share_01, 0.0, 1.0,
-              "Share of the streets, the longest and widest, that become level 0; at least one."},
-        EnumField{"importance",
-                  &HierarchyOptions::importance,
-                  {EnumName{"length", Importance::kLength}, EnumName{"width", Importance::kWidth},
-                   EnumName{"length_times_width", Importance::kLengthTimesWidth}},
-                  "What makes a street one of the longest and widest."}};
-  }
-};
+/// Length of a piece, summed in the sense of the chain: the same bits whichever way the street's
+/// line is stored.
+double length_m(const StreetNetwork& network, StreetChain::Piece piece);
+double length_m(const StreetNetwork& network, const StreetChain& chain);
+/// Mean by length of the pieces' widths.
+double width_m(const StreetNetwork& network, const StreetChain& chain);
 
-/// Gives every chain its level: the most important are 0; those that meet one of level h and have
-/// none yet are h + 1. In a part of the network that no chain of level 0 reaches, the most
-/// important one is 0.
-/// Paper: [AVB08, Sec. 5]
-void assign_hierarchy(const StreetNetwork& network, std::vector<StreetChain>& chains,
-                      const HierarchyOptions& options = {});
+/// The unit vector in which a street leaves its node `from` (or, where `is_reversed`, `to`),
+/// measured far enough off not to see rounded corners.
+Point heading_of(const Street& street, bool is_reversed);
 
 }  // namespace plat::streets
