@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "core/planar_graph.h"
 #include "streets/growth_plane.h"
+#include "streets/street_width.h"
 
 namespace plat::streets {
 namespace {
@@ -141,8 +143,9 @@ Growth assemble_growth(const GrowthSite& site, const GrowthPlane& plane,
     street.from = node_at(piece.line.front());
     street.to = node_at(piece.line.back());
     street.line = piece.line;
-    street.width_m = edge.width_m;
-    street.width_source = WidthSource::kExample;
+    const bool has_width = edge.width_m > 0.0 && std::isfinite(edge.width_m);
+    street.width_m = has_width ? edge.width_m : WidthOptions{}.default_width_m;
+    street.width_source = has_width ? WidthSource::kExample : WidthSource::kAssumed;
     network.streets.push_back(std::move(street));
     growth.segments.push_back(edge.segment);
   }

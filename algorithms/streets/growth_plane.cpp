@@ -18,9 +18,14 @@ namespace {
 
 /// Cells where the points say nothing about the length of streets.
 constexpr double kFallbackCell_m = 100.0;
-/// A cell is no smaller than this share of the plane, so that one long segment meets a bounded
-/// number of them.
+/// A cell is no smaller than this share of the plane, walls included, so that one long segment
+/// meets a bounded number of them; nor than this, so that their numbers are small wherever the
+/// plane lies.
 constexpr double kSmallestCellShare = 0x1p-14;
+constexpr double kSmallestCell_m = 0.5;
+/// Noding (core/planar_graph.h) bends a segment through a node that is nearer than half the
+/// diagonal of a grid cell; this is a little more.
+constexpr double kNodingReach_m = 0.75 * kGridStep_m;
 
 struct Item {
   enum class Kind : std::uint8_t { kExisting, kGrown, kVertex, kWall };
@@ -45,6 +50,28 @@ struct Candidate {
   bool is_vertex_b = true;
 };
 
+/// Whether a node at `p`, no end of the segment, would move it.
+bool is_bent_by(const Segment& s, Point p) { return distance(s, p) < kNodingReach_m; }
+
+/// Whether two segments without a common end meet, or would once they are noded.
+bool meet_when_noded(const Segment& s, const Segment& t) {
+  return cross_properly(s, t) || is_bent_by(s, t.a) || is_bent_by(s, t.b) || is_bent_by(t, s.a) ||
+         is_bent_by(t, s.b);
+}
+
+/// Whether two segments from `end` run along each other, or would once they are noded.
+bool overlap_when_noded(Point end, Point one, Point other) {
+  return is_bent_by({end, one}, other) || is_bent_by({end, other}, one);
+}
+
+bool are_boxes_apart(const Segment& s, const Segment& t) {
+  const auto is_below = [](double a, double b, double c, double d) {
+    return std::max(a, b) + kNodingReach_m < std::min(c, d);
+  };
+  return is_below(s.a.x, s.b.x, t.a.x, t.b.x) || is_below(t.a.x, t.b.x, s.a.x, s.b.x) ||
+         is_below(s.a.y, s.b.y, t.a.y, t.b.y) || is_below(t.a.y, t.b.y, s.a.y, s.b.y);
+}
+
 /// How a street's segment is met.
 enum class Meeting { kApart, kCommonVertex, kCrossing, kTouching };
 
@@ -53,27 +80,23 @@ Meeting meeting(const Candidate& c, const Item& item) {
   const Segment& t = item.segment;
   if ((s.a == t.a && s.b == t.b) || (s.a == t.b && s.b == t.a)) return Meeting::kTouching;
   const auto at_common_end = [](Point end, Point mine, Point other, bool are_vertices) {
-    if (!are_vertices) return Meeting::kTouching;
-    const bool is_overlap =
-        orientation_sign(end, mine, other) == 0 && dot(mine - end, other - end) > 0.0;
-    return is_overlap ? Meeting::kTouching : Meeting::kCommonVertex;
+    return !are_vertices || overlap_when_noded(end, mine, other) ? Meeting::kTouching
+                                                                 : Meeting::kCommonVertex;
   };
   if (s.a == t.a) return at_common_end(s.a, s.b, t.b, c.is_vertex_a && item.is_vertex_a);
   if (s.a == t.b) return at_common_end(s.a, s.b, t.a, c.is_vertex_a && item.is_vertex_b);
   if (s.b == t.a) return at_common_end(s.b, s.a, t.b, c.is_vertex_b && item.is_vertex_a);
   if (s.b == t.b) return at_common_end(s.b, s.a, t.a, c.is_vertex_b && item.is_vertex_b);
-  if (!box_of(std::vector<Point>{s.a, s.b}).intersects(box_of(std::vector<Point>{t.a, t.b}))) {
-    return Meeting::kApart;
-  }
+  if (are_boxes_apart(s, t)) return Meeting::kApart;
   if (cross_properly(s, t)) return Meeting::kCrossing;
-  return meet(s, t) ? Meeting::kTouching : Meeting::kApart;
+  return meet_when_noded(s, t) ? Meeting::kTouching : Meeting::kApart;
 }
 
 /// Whether the candidate passes through the vertex, or bends at it.
 bool passes_through(const Candidate& c, Point vertex) {
   if (vertex == c.segment.a) return !c.is_vertex_a;
   if (vertex == c.segment.b) return !c.is_vertex_b;
-  return lies_on(c.segment, vertex);
+  return is_bent_by(c.segment, vertex);
 }
 
 Point crossing_place(const Segment& s, const Segment& t) {
@@ -99,7 +122,8 @@ double cell_size_m(const GrowthSite& site, const Box& box) {
     std::nth_element(lengths.begin(), middle, lengths.end());
     cell = *middle;
   }
-  return std::max({cell, kGridStep_m, kSmallestCellShare * std::max(box.width(), box.height())});
+  return std::max(
+      {cell, kSmallestCell_m, kSmallestCellShare * std::max(box.width(), box.height())});
 }
 
 }  // namespace
@@ -195,6 +219,8 @@ Expected<GrowthPlane> GrowthPlane::over(const GrowthSite& site) {
   if (auto defect = find_defect(site)) return tl::unexpected(std::move(*defect));
   Box box = box_of(site.existing.nodes);
   for (const IntersectionPoint& point : site.points) box.add(point.place);
+  if (site.boundary) box.add(box_of(*site.boundary));
+  for (const Polygon& obstacle : site.obstacles) box.add(box_of(obstacle));
   auto state = std::make_unique<State>(cell_size_m(site, box));
 
   if (site.boundary) {
@@ -247,12 +273,9 @@ bool GrowthPlane::admits_line(std::span<const Point> line) const {
     if (piece.a == piece.b) return false;
     for (std::size_t k = 0; k + 1 < i; ++k) {
       // A closed line would have its first and last piece meet in its end.
-      if (meet(piece, {line[k], line[k + 1]})) return false;
+      if (meet_when_noded(piece, {line[k], line[k + 1]})) return false;
     }
-    if (i > 0 && orientation_sign(line[i - 1], piece.a, piece.b) == 0 &&
-        dot(line[i - 1] - piece.a, piece.b - piece.a) > 0.0) {
-      return false;
-    }
+    if (i > 0 && overlap_when_noded(piece.a, line[i - 1], piece.b)) return false;
     if (!state_->is_clear({piece, i == 0, i + 1 == last}, nullptr)) return false;
   }
   return true;

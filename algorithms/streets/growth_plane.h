@@ -26,7 +26,8 @@ inline constexpr double kCrossingClearance_m = 1.0;
 /// Guarantees: 1. decisions are exact on the working grid;  2. a segment is admitted where its ends
 /// are not connected already, it crosses or touches no other segment but in a common end, passes
 /// through no vertex, and stays inside the boundary and out of the obstacles; it may touch or run
-/// along these.
+/// along these;  3. noding (core/planar_graph.h) leaves what was added as it is: what comes within
+/// three quarters of a grid step counts as touching.
 /// Complexity: a decision costs what lies in the cells that the segment meets.
 class GrowthPlane {
  public:
@@ -85,8 +86,9 @@ struct GrownEdge {
   Polyline line{};  ///< from vertex to vertex, as bent in the plane; empty: straight
 };
 
-/// The network of the existing streets and `edges`, all of them added to the plane. Edges that
-/// cross (has_crossings()) are noded; parts that then coincide are kept once.
+/// The network of the existing streets and `edges`, all of them added to the plane. An edge of no
+/// known width (not above 0) gets the default of street_width.h, as WidthSource::kAssumed. Edges
+/// that cross (has_crossings()) are noded; parts that then coincide are kept once.
 Growth assemble_growth(const GrowthSite& site, const GrowthPlane& plane,
                        std::span<const GrownEdge> edges);
 

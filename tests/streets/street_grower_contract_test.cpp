@@ -284,7 +284,7 @@ TEST_P(StreetGrowerContract, GrowsTheSameNetworkOnAnyThread) {
   };
   const Growth here = grow();
   std::vector<Growth> there(8);
-  parallel_for(there.size(), Jobs{4}, [&](std::size_t i) { there[i] = grow(); });
+  parallel_for(there.size(), Jobs{2}, [&](std::size_t i) { there[i] = grow(); });
   for (const Growth& growth : there) EXPECT_TRUE(plat::testing::are_same(here, growth));
 }
 
