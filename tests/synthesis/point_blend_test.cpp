@@ -4,6 +4,7 @@
 
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "support/property.h"
 #include "synthesis/made_points.h"
@@ -222,6 +223,52 @@ TEST(Blend, OfCongruentSetsTakesOneOfEachPairOfPoints) {
   }
   Rng rng(1);
   EXPECT_EQ(blend(grid, shifted, ConstantWeight{0.5}, {}, rng).size(), 169u);
+}
+
+TEST(Blend, TakesOneOfEachPairThoughBothHadRoom) {
+  const PointSet grid = grid_points(13, 13, 100.0, {}, kGridStyle);
+  PointSet shifted = grid;
+  for (streets::IntersectionPoint& point : shifted) {
+    if (point.place.x > 0 && point.place.x < 1200 && point.place.y > 0 && point.place.y < 1200) {
+      point.place = point.place + Point{40, 20};
+    }
+  }
+  Rng rng(1);
+  std::set<std::pair<double, double>> blocks;
+  for (const auto& point : blend(grid, shifted, ConstantWeight{0.5}, {}, rng)) {
+    blocks.emplace(std::floor(point.place.x / 100.0), std::floor(point.place.y / 100.0));
+  }
+  EXPECT_EQ(blocks.size(), 169u);
+}
+
+TEST(Blend, SharesOfTheSetsFollowTheWeight) {
+  Rng rng = plat::testing::property_rng("Blend.Shares");
+  PointSet first = scattered_points(rng, 1500, {0, 0}, {1000, 1000}, kGridStyle);
+  PointSet second = scattered_points(rng, 1500, {0, 0}, {1000, 1000}, kWildStyle);
+  for (streets::IntersectionPoint& point : first) point.a.connections = 1;
+  const BlendOptions options{.spacing = {.share_01 = 0.0, .min_m = 0.0}};
+  const PointSet points = blend(first, second, RampWeight{{0, 0}, {1000, 0}}, options, rng);
+  for (int strip = 0; strip < 5; ++strip) {
+    double of_first = 0.0;
+    double all = 0.0;
+    for (const streets::IntersectionPoint& point : points) {
+      if (std::floor(point.place.x / 200.0) != strip) continue;
+      all += 1.0;
+      of_first += point.a.connections == 1 ? 1.0 : 0.0;
+    }
+    EXPECT_NEAR(of_first / all, 0.9 - 0.2 * strip, 0.1) << "strip " << strip;
+  }
+}
+
+TEST(Blend, FullWeightGoesBeforePointsOutsideTheOverlap) {
+  const PointSet west = grid_points(9, 9, 100.0, {0, 0}, kGridStyle);
+  // Its first column outside the overlap lies 10 m behind the last column of the other.
+  const PointSet east = grid_points(9, 9, 90.0, {450, 0}, kGridStyle);
+  Rng rng(2);
+  const PointSet points = blend(west, east, ConstantWeight{0.0}, {}, rng);
+  for (const streets::IntersectionPoint& point : west) {
+    EXPECT_EQ(std::ranges::count(points, point), 1);
+  }
 }
 
 TEST(Blend, MorphedPairsLieOnTheWay) {

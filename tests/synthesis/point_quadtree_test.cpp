@@ -66,6 +66,10 @@ RC_GTEST_PROP(PointQuadtree, EachPointIsInOneLeafThatHoldsIt, (std::uint32_t see
       ++holders[point];
       RC_ASSERT(tree.contains(points[point].place));
       RC_ASSERT(tree.path_to(points[point].place).back() == i);
+      const Polygon rectangle{tree.corners(i), {}};
+      RC_ASSERT(tree.nodes()[i].area_m2() == 0.0 ||
+                locate(rectangle, points[point].place) == Side::kInside ||
+                boundary_distance_m(rectangle, points[point].place) < 1e-6);
     }
   }
   RC_ASSERT(std::ranges::all_of(holders, [](int n) { return n == 1; }));
@@ -155,6 +159,19 @@ TEST(PointQuadtree, StyleIsTheMeanOfTheLevelInTheSmallestNodeThatHasIt) {
   // Level 7 is not in the set: the nearest one that is.
   EXPECT_DOUBLE_EQ(tree.style_at({2000, 0}, 7)->distance_mean_m, 200.0);
   EXPECT_FALSE(tree.style_at({-5000, 0}, 0).has_value());
+}
+
+TEST(PointQuadtree, StyleIsThatOfTheLeafWhereAllHaveTheLevel) {
+  PointSet points = grid_points(20, 20, 50.0, {}, {.distance_m = 50.0, .parcel_area_m2 = 300.0});
+  const PointSet others =
+      grid_points(5, 5, 200.0, {1200, 0}, {.distance_m = 200.0, .parcel_area_m2 = 900.0});
+  points.insert(points.end(), others.begin(), others.end());
+  const PointQuadtree tree(points);
+  ASSERT_GT(tree.leaf_count(), 1u);
+  EXPECT_DOUBLE_EQ(tree.style_at({100, 100}, 1)->distance_mean_m, 50.0);
+  EXPECT_DOUBLE_EQ(tree.style_at({1900, 100}, 1)->distance_mean_m, 200.0);
+  EXPECT_DOUBLE_EQ(*tree.parcel_area_at_m2({100, 100}), 300.0);
+  EXPECT_DOUBLE_EQ(*tree.parcel_area_at_m2({1900, 100}), 900.0);
 }
 
 TEST(PointQuadtree, ParcelAreaIsTheMeanOfThosePointsThatKnowOne) {
