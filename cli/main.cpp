@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   plat::cli::add_subdivide_command(app, action);
   plat::cli::add_edit_command(app, action);
   plat::cli::add_compare_command(app, action);
+  plat::cli::add_measures_command(app, action);
   plat::cli::add_run_command(app, action);
   plat::cli::add_report_command(app, action);
   plat::cli::add_figure_command(app, action);
