@@ -16,7 +16,7 @@ namespace plat::streets {
 struct NetworkGraph {
   struct Edge {
     std::uint32_t from = 0;
-    std::uint32_t to = 0;  ///< may be `from`, and may be joined with it by several edges
+    std::uint32_t to = 0;  ///< >= from; may be `from`, or joined with it by several edges
     double length_m = 0.0;
     std::vector<std::uint32_t> streets;  ///< of the network, from end to end
   };

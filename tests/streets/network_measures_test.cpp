@@ -126,6 +126,7 @@ TEST(NetworkGraph, EveryStreetIsInOneEdgeAndSplittingChangesNothing) {
     const NetworkGraph graph = network_graph(network);
     std::vector<int> times(network.streets.size(), 0);
     for (const auto& edge : graph.edges) {
+      EXPECT_LE(edge.from, edge.to);
       for (const std::uint32_t street : edge.streets) ++times[street];
     }
     EXPECT_EQ(times, std::vector<int>(network.streets.size(), 1));
@@ -336,6 +337,14 @@ TEST(MeasureNetwork, LadderHasTheNumbersOfItsDrawing) {
   EXPECT_EQ(value_of(measures, "mean_degree"), 12.0 / 5.0);
   EXPECT_NEAR(value_of(measures, "edges_per_km2"), 6.0 / 800e-6, 1e-6);
   EXPECT_NEAR(value_of(measures, "length_km_per_km2"), 180.0 / 800e-6 / 1000.0, 1e-6);
+}
+
+TEST(MeasureNetwork, ARingIsNeitherAnIntersectionNorADeadEnd) {
+  Rng rng(5);
+  const NetworkMeasures measures = measure_network(drawn("A-B\n| |\nD-C", {"ABCDA"}), {}, rng);
+  EXPECT_EQ(measures.node_degree, std::vector<double>{2.0});
+  EXPECT_EQ(measures.intersections, 0U);
+  EXPECT_EQ(measures.dead_ends, 0U);
 }
 
 TEST(MeasureNetwork, DensitiesArePerTheLandGiven) {
