@@ -28,7 +28,8 @@ class NearestGrower {
     /// k: a street is at most as long as mean + k deviations of all distances that the points know
     std::optional<double> length_deviations = 2.0;
     int neighbours = 16;  ///< how many of the nearest points of each are looked at
-    std::optional<double> max_connections;  ///< of a point; none: as many as its streets have
+    /// of a point; none: as many as its streets have
+    std::optional<double> max_connections = std::nullopt;
 
     static constexpr auto fields() {
       return std::tuple{
