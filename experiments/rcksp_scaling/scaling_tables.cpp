@@ -7,13 +7,15 @@
 
 #include "core/rng.h"
 #include "harness/csv.h"
-#include "rcksp_scaling/power_law.h"
+#include "harness/power_law.h"
 
 namespace plat::rcksp {
 namespace {
 
 using harness::CsvTable;
 using harness::Duration;
+using harness::fit_power_law;
+using harness::GrowthPoint;
 
 double median(std::vector<double> values) {
   std::ranges::sort(values);

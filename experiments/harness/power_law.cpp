@@ -1,4 +1,4 @@
-#include "rcksp_scaling/power_law.h"
+#include "harness/power_law.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -7,7 +7,7 @@
 
 #include "core/failure.h"
 
-namespace plat::rcksp {
+namespace plat::harness {
 
 std::optional<PowerLaw> fit_power_law(std::span<const GrowthPoint> points) {
   const auto n = static_cast<double>(points.size());
@@ -44,4 +44,4 @@ std::optional<PowerLaw> fit_power_law(std::span<const GrowthPoint> points) {
   return law;
 }
 
-}  // namespace plat::rcksp
+}  // namespace plat::harness

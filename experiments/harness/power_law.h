@@ -5,7 +5,7 @@
 
 #include "statistics/quantile.h"
 
-namespace plat::rcksp {
+namespace plat::harness {
 
 /// y = factor * x^exponent.
 struct PowerLaw {
@@ -27,4 +27,4 @@ struct GrowthPoint {
 /// Pre: all x and y above 0.
 std::optional<PowerLaw> fit_power_law(std::span<const GrowthPoint> points);
 
-}  // namespace plat::rcksp
+}  // namespace plat::harness

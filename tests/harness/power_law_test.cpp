@@ -1,11 +1,11 @@
-#include "rcksp_scaling/power_law.h"
+#include "harness/power_law.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-namespace plat::rcksp {
+namespace plat::harness {
 namespace {
 
 TEST(PowerLaw, RecoversAKnownExponent) {
@@ -43,4 +43,4 @@ TEST(PowerLaw, NeedsTwoDifferentValues) {
 }
 
 }  // namespace
-}  // namespace plat::rcksp
+}  // namespace plat::harness
