@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "core/planar_graph.h"
@@ -88,19 +87,18 @@ std::vector<Piece> noded_edges(const GrowthPlane& plane, std::span<const GrownEd
 /// of each existing one.
 std::vector<std::uint32_t> number_nodes(const StreetNetwork& existing,
                                         std::span<const Piece> pieces, std::vector<Point>& nodes) {
-  std::set<Point> ends;
-  for (const Piece& piece : pieces) {
-    ends.insert(piece.line.front());
-    ends.insert(piece.line.back());
-  }
-  for (const Point p : existing.nodes) ends.erase(p);
   std::vector<std::pair<Point, std::uint32_t>> all;
   const auto kept = static_cast<std::uint32_t>(existing.nodes.size());
   for (std::uint32_t i = 0; i < kept; ++i) all.emplace_back(existing.nodes[i], i);
-  for (const Point p : ends) all.emplace_back(p, kept);
+  for (const Piece& piece : pieces) {
+    all.emplace_back(piece.line.front(), kept);
+    all.emplace_back(piece.line.back(), kept);
+  }
   std::sort(all.begin(), all.end());
   std::vector<std::uint32_t> number(kept, 0);
   for (const auto& [place, old] : all) {
+    // Existing nodes come before the ends of pieces at their place.
+    if (old == kept && !nodes.empty() && nodes.back() == place) continue;
     if (old < kept) number[old] = static_cast<std::uint32_t>(nodes.size());
     nodes.push_back(place);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <unordered_set>
 #include <utility>
 
@@ -154,6 +153,34 @@ struct GrowthPlane::State {
     return static_cast<std::uint32_t>(vertices.size() - 1);
   }
 
+  /// The existing nodes, then a vertex per distinct place of the points, in their order.
+  void put_vertices(const GrowthSite& site) {
+    for (const Point node : site.existing.nodes) put_vertex(node);
+    existing_nodes = static_cast<std::uint32_t>(site.existing.nodes.size());
+    std::vector<std::pair<Point, std::uint32_t>> places;
+    for (std::uint32_t i = 0; i < existing_nodes; ++i) places.emplace_back(vertices[i], i);
+    for (const IntersectionPoint& point : site.points)
+      places.emplace_back(snap(point.place), static_cast<std::uint32_t>(places.size()));
+    // The first of each place, as a number of `places`.
+    std::vector<std::uint32_t> first(places.size());
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const bool is_first = i == 0 || places[i].first != places[i - 1].first;
+      first[places[i].second] = is_first ? places[i].second : first[places[i - 1].second];
+    }
+    std::vector<std::uint32_t> vertex_of(first.size());
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+      if (i < existing_nodes) {
+        vertex_of[i] = first[i];
+        continue;
+      }
+      const bool is_new = first[i] == i;
+      vertex_of[i] =
+          is_new ? put_vertex(snap(site.points[i - existing_nodes].place)) : vertex_of[first[i]];
+      vertex_of_point.push_back(vertex_of[i]);
+    }
+  }
+
   void put_barrier(const Polygon& polygon, Side barred) {
     const auto region = static_cast<std::uint32_t>(barriers.size());
     barriers.push_back({GrowthRegion(polygon), barred});
@@ -235,15 +262,7 @@ Expected<GrowthPlane> GrowthPlane::over(const GrowthSite& site) {
     if (snapped.outer.size() >= 3) state->put_barrier(snapped, Side::kInside);
   }
 
-  std::map<Point, std::uint32_t> at;
-  for (const Point node : site.existing.nodes) at.try_emplace(node, state->put_vertex(node));
-  state->existing_nodes = static_cast<std::uint32_t>(site.existing.nodes.size());
-  for (const IntersectionPoint& point : site.points) {
-    const Point place = snap(point.place);
-    const auto [it, is_new] = at.try_emplace(place, 0);
-    if (is_new) it->second = state->put_vertex(place);
-    state->vertex_of_point.push_back(it->second);
-  }
+  state->put_vertices(site);
   for (const Street& street : site.existing.streets) {
     state->put_line(street.line, Item::Kind::kExisting);
     state->connected.insert(pair_key(street.from, street.to));

@@ -58,13 +58,13 @@ Expected<Growth> NearestGrower::grow(const GrowthSite& site, Rng& /*rng*/) const
   if (!plane) return tl::unexpected(plane.error());
   std::vector<Socket> sockets = sockets_of(site, *plane);
   const double largest_m = largest_length_m(sockets, options_.length_deviations);
-  auto pairs = near_pairs(sockets, options_.neighbours, largest_m);
+  const auto pairs = near_pairs(sockets, options_.neighbours, largest_m);
   if (options_.max_connections) {
     for (Socket& socket : sockets)
       socket.free_connections =
           std::min(socket.free_connections, static_cast<std::uint32_t>(*options_.max_connections));
   }
-  return grow_shortest_first(site, *plane, std::move(sockets), std::move(pairs));
+  return grow_shortest_first(site, *plane, std::move(sockets), pairs);
 }
 
 }  // namespace plat::streets

@@ -74,14 +74,16 @@ SegmentStyle style_between(const Socket& a, const Socket& b) {
 }
 
 Growth grow_shortest_first(const GrowthSite& site, GrowthPlane& plane, std::vector<Socket> sockets,
-                           std::vector<SocketPair> pairs) {
-  const auto squared_length_m2 = [&](const SocketPair& pair) {
-    return squared_length(sockets[pair.b].place - sockets[pair.a].place);
-  };
-  std::ranges::sort(
-      pairs, {}, [&](const SocketPair& pair) { return std::pair(squared_length_m2(pair), pair); });
+                           std::span<const SocketPair> pairs) {
+  // Sorted with their lengths beside them: looked up while sorting, these took a tenth of the time.
+  std::vector<std::pair<double, SocketPair>> by_length;
+  by_length.reserve(pairs.size());
+  for (const SocketPair& pair : pairs)
+    by_length.emplace_back(squared_length(sockets[pair.b].place - sockets[pair.a].place), pair);
+  std::ranges::sort(by_length);
   std::vector<GrownEdge> edges;
-  for (const auto& [a, b] : pairs) {
+  for (const auto& [squared_length_m2, pair] : by_length) {
+    const auto [a, b] = pair;
     Socket& from = sockets[a];
     Socket& to = sockets[b];
     if (from.free_connections == 0 || to.free_connections == 0) continue;

@@ -44,6 +44,6 @@ SegmentStyle style_between(const Socket& a, const Socket& b);
 /// numbers: each where both sockets have a connection left and the plane admits it. Every segment
 /// is a street of its own.
 Growth grow_shortest_first(const GrowthSite& site, GrowthPlane& plane, std::vector<Socket> sockets,
-                           std::vector<SocketPair> pairs);
+                           std::span<const SocketPair> pairs);
 
 }  // namespace plat::streets

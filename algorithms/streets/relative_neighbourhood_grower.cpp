@@ -21,7 +21,7 @@ Expected<Growth> RelativeNeighbourhoodGrower::grow(const GrowthSite& site, Rng& 
   }
   std::vector<SocketPair> pairs;
   for (const auto& [a, b] : beta_skeleton(places, options_.beta)) pairs.push_back({a, b});
-  return grow_shortest_first(site, *plane, std::move(sockets), std::move(pairs));
+  return grow_shortest_first(site, *plane, std::move(sockets), pairs);
 }
 
 }  // namespace plat::streets
