@@ -193,6 +193,30 @@ StreetNetwork network_of(Rng& rng, const std::vector<Segment>& segments) {
   return out;
 }
 
+/// Streets from node to node whatever they cross, and a loop at a node.
+void add_bridges(Rng& rng, StreetNetwork& network, double step_m) {
+  const auto add = [&](std::uint32_t from, std::uint32_t to, Polyline line) {
+    Street street = network.streets.front();
+    street.id = StreetId{static_cast<std::uint32_t>(network.streets.size())};
+    street.from = from;
+    street.to = to;
+    street.line = std::move(line);
+    street.attributes.structure = streets::Structure::kBridge;
+    network.streets.push_back(std::move(street));
+  };
+  if (network.streets.empty()) return;
+  for (int i = 0; i < 3; ++i) {
+    const auto from = static_cast<std::uint32_t>(rng.index(network.nodes.size()));
+    const auto to = static_cast<std::uint32_t>(rng.index(network.nodes.size()));
+    if (from != to) add(from, to, {network.nodes[from], network.nodes[to]});
+  }
+  const auto node = static_cast<std::uint32_t>(rng.index(network.nodes.size()));
+  const Point at = network.nodes[node];
+  add(node, node,
+      {at, snap(at + Point{0.3 * step_m, 0.2 * step_m}), snap(at + Point{0.3 * step_m, -step_m}),
+       at});
+}
+
 std::vector<Segment> existing_segments(Rng& rng, ExistingNetwork kind,
                                        const std::vector<Point>& places, const Box& box,
                                        double step_m) {
@@ -211,6 +235,7 @@ std::vector<Segment> existing_segments(Rng& rng, ExistingNetwork kind,
       break;
     }
     case ExistingNetwork::kAcross:
+    case ExistingNetwork::kBridges:
       for (std::uint64_t k = 1 + rng.index(3); k > 0; --k) {
         Point at = box.center() + random_place(rng, box.width() + step_m);
         for (std::uint64_t n = 1 + rng.index(3); n > 0; --n) {
@@ -350,7 +375,7 @@ MadeSite made_site(std::uint64_t seed, std::uint32_t number, std::size_t most_po
   Rng rng(derive_seed(seed, {number}));
   MadeSite out;
   out.family = static_cast<SiteFamily>(number % kSiteFamilyNames.size());
-  out.existing = random_kind(rng, ExistingNetwork::kThroughPoints);
+  out.existing = random_kind(rng, ExistingNetwork::kBridges);
   out.boundary = random_kind(rng, BoundaryKind::kExcludesAll);
   out.obstacles = random_kind(rng, ObstacleKind::kCoversAll);
 
@@ -365,6 +390,7 @@ MadeSite made_site(std::uint64_t seed, std::uint32_t number, std::size_t most_po
       random_styles(rng, out.family == SiteFamily::kDense ? 2.0 * kGridStep_m : step_m);
   for (const Point place : places) out.site.points.push_back(random_point(rng, place, styles));
   out.site.existing = network_of(rng, existing_segments(rng, out.existing, places, box, step_m));
+  if (out.existing == ExistingNetwork::kBridges) add_bridges(rng, out.site.existing, step_m);
   out.site.open_ends = random_open_ends(rng, out.site.existing, styles);
   out.site.boundary = random_boundary(rng, out.boundary, places, box, step_m);
   out.site.obstacles = random_obstacles(rng, out.obstacles, places, box, step_m);

@@ -26,7 +26,13 @@ inline constexpr std::array<std::string_view, 9> kSiteFamilyNames{
     "near_collinear", "coincident", "dense",     "few_points"};
 
 /// What else there is on a site.
-enum class ExistingNetwork { kNone, kBeside, kAcross, kThroughPoints };
+enum class ExistingNetwork {
+  kNone,
+  kBeside,
+  kAcross,
+  kThroughPoints,
+  kBridges,  ///< across, with streets that cross without a node and one that is a loop
+};
 enum class BoundaryKind { kNone, kAround, kThroughPoints, kStar, kHoles, kExcludesAll };
 enum class ObstacleKind { kNone, kRiver, kScattered, kIsland, kAtPoints, kCoversAll };
 
