@@ -45,7 +45,8 @@ std::string tag_value(std::string_view tags, std::string_view key) {
   return value;
 }
 
-/// Reads one attribute of a street from the field that was named, or from OpenStreetMap's.
+/// Reads one attribute of a street from the field that was named, or from OpenStreetMap's. A named
+/// one that is no field is looked for in `other_tags`, as layer_io.h does.
 class FieldReader {
  public:
   FieldReader(const Layer& layer, const std::string& named,
@@ -53,6 +54,11 @@ class FieldReader {
       : usual_(usual), tags_(find_field(layer, "other_tags")) {
     if (!named.empty()) {
       const auto field = find_field(layer, named);
+      if (!field && tags_) {
+        usual_ = {named};
+        is_named_ = false;
+        return;
+      }
       if (!field) {
         std::vector<std::string_view> known;
         for (const auto& f : layer.fields) known.emplace_back(f.name);

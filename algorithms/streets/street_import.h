@@ -15,16 +15,16 @@ namespace plat::streets {
 /// ("\"lanes\"=>\"2\",..."). A layer with a `highway` field holds other lines too (rivers, walls):
 /// a feature without a value there is left out, by a row.
 struct StreetFields {
-  std::string name;
-  std::string street_class;
-  std::string width;  ///< metres; "7.5", "7.5 m" or "24'" are understood
-  std::string lanes;
-  std::string level;      ///< whole number, 0 = ground
-  std::string structure;  ///< "bridge", "tunnel" or none
+  std::string name{};
+  std::string street_class{};
+  std::string width{};  ///< metres; "7.5", "7.5 m" or "24'" are understood
+  std::string lanes{};
+  std::string level{};      ///< whole number, 0 = ground
+  std::string structure{};  ///< "bridge", "tunnel" or none
   /// Put before the value of `street_class`, to name numbers, e.g. "major_" for Cambridge's
   /// MajorRoad.
-  std::string class_prefix;
-  std::string default_class;  ///< where the class is missing, e.g. "local"
+  std::string class_prefix{};
+  std::string default_class{};  ///< where the class is missing, e.g. "local"
 };
 
 struct RawStreets {
@@ -33,7 +33,8 @@ struct RawStreets {
 };
 
 /// The lines of a layer as streets. @throws InputError for a layer that does not hold lines, or a
-/// field named in `fields` that the layer does not have.
+/// field named in `fields` that the layer has neither as a field nor `other_tags` to look for it
+/// in.
 RawStreets import_streets(const geodata::Layer& layer, const StreetFields& fields = {});
 
 }  // namespace plat::streets

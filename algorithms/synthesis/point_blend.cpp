@@ -142,13 +142,15 @@ void mix(PassingStreet& street, const PassingStreet& other, double other_weight_
   towards(street.width_m, other.width_m);
 }
 
-/// The point with the attributes that the other set's tree mixes into it.
-IntersectionPoint mixed(IntersectionPoint point, const PointQuadtree& other,
-                        double other_weight_01) {
+/// The point with the attributes of the other set's streets of the same rank mixed into it.
+IntersectionPoint mixed(IntersectionPoint point, const PointQuadtree& own,
+                        const PointQuadtree& other, double other_weight_01) {
   if (other_weight_01 == 0.0) return point;
   const auto mix_in = [&](PassingStreet& street) {
-    const auto style = other.style_at(point.place, street.hierarchy);
-    if (style) mix(street, *style, other_weight_01);
+    const auto ranks = own.ranks_at(point.place, street.hierarchy);
+    if (!ranks) return;
+    if (const auto style = other.style_at(point.place, *ranks))
+      mix(street, *style, other_weight_01);
   };
   mix_in(point.a);
   if (point.b) mix_in(*point.b);
@@ -223,7 +225,8 @@ PointSet blend_weighted(std::span<const IntersectionPoint> a, std::span<const In
     for (std::size_t i = 0; i < candidate_of.size(); ++i) {
       if (candidate_of[i] == nullptr) continue;
       const Candidate& one = *candidate_of[i];
-      IntersectionPoint point = mixed(sets.points[set][i], trees[1 - set], one.other_weight_01());
+      IntersectionPoint point =
+          mixed(sets.points[set][i], trees[set], trees[1 - set], one.other_weight_01());
       point.place = one.place;
       out.push_back(std::move(point));
     }

@@ -52,8 +52,8 @@ struct BlendOptions {
 /// Blends two point sets where their boxes overlap; outside, each stays as it is.
 ///
 /// At a place of weight w, as many points are taken as (1 - w) of the first set and w of the second
-/// have there, and every attribute of a point is the weighted mean of its own and of what a street
-/// of its level has in the leaf of the other set around it.
+/// have there, and every attribute of a point is the weighted mean of its own and of what streets
+/// of its rank have in the leaf of the other set around it.
 ///
 /// Guarantees: 1. weight 0 gives, in the overlap, the points of `a` unchanged, weight 1 those of
 /// `b`;  2. the points of `a` come first, both in their order; levels and connections are a point's

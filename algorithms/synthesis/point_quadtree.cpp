@@ -4,7 +4,6 @@
 #include <array>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -57,17 +56,18 @@ bool is_uniform(std::span<const Point> places, Point low, Point high, double sig
 /// Sums of a level's attributes.
 struct LevelSum {
   double count = 0.0;
-  PassingStreet sum{.hierarchy = 0, .tortuosity = 0.0, .connections = 0};
+  double connections = 0.0;
+  PassingStreet sum{.hierarchy = 0, .tortuosity = 0.0};
 
-  void add(const PassingStreet& street) {
-    count += 1.0;
-    sum.tortuosity += street.tortuosity;
-    sum.distance_mean_m += street.distance_mean_m;
-    sum.distance_variance_m2 += street.distance_variance_m2;
-    sum.angle_mean_rad += street.angle_mean_rad;
-    sum.angle_variance_rad2 += street.angle_variance_rad2;
-    sum.width_m += street.width_m;
-    sum.connections += street.connections;
+  void add(const PassingStreet& street, double weight = 1.0) {
+    count += weight;
+    sum.tortuosity += weight * street.tortuosity;
+    sum.distance_mean_m += weight * street.distance_mean_m;
+    sum.distance_variance_m2 += weight * street.distance_variance_m2;
+    sum.angle_mean_rad += weight * street.angle_mean_rad;
+    sum.angle_variance_rad2 += weight * street.angle_variance_rad2;
+    sum.width_m += weight * street.width_m;
+    connections += weight * street.connections;
   }
   [[nodiscard]] PassingStreet mean(int hierarchy) const {
     return {.hierarchy = hierarchy,
@@ -77,7 +77,7 @@ struct LevelSum {
             .angle_mean_rad = sum.angle_mean_rad / count,
             .angle_variance_rad2 = sum.angle_variance_rad2 / count,
             .width_m = sum.width_m / count,
-            .connections = static_cast<int>(std::lround(sum.connections / count))};
+            .connections = static_cast<int>(std::lround(connections / count))};
   }
 };
 
@@ -101,9 +101,22 @@ void describe(QuadtreeNode& node, std::span<const IntersectionPoint> points) {
   if (parcel_count > 0.0) node.parcel_area_m2 = parcel_sum_m2 / parcel_count;
 }
 
-const LevelStyle* find_level(const QuadtreeNode& node, int hierarchy) {
-  const auto found = std::ranges::find(node.levels, hierarchy, &LevelStyle::hierarchy);
-  return found == node.levels.end() ? nullptr : &*found;
+/// The mean style of the streets from one share of the levels' order to another.
+PassingStreet style_between(const QuadtreeNode& node, const RankRange& ranks) {
+  LevelSum sum;
+  std::optional<int> first;
+  double below_01 = 0.0;
+  for (const LevelStyle& level : node.levels) {
+    const double above_01 = below_01 + level.probability_01;
+    const double share_01 = std::min(ranks.high_01, above_01) - std::max(ranks.low_01, below_01);
+    if (share_01 > 0.0) {
+      sum.add(level.mean, share_01);
+      if (!first) first = level.hierarchy;
+    }
+    below_01 = above_01;
+  }
+  // Rounding may leave nothing of the last level.
+  return first ? sum.mean(*first) : node.levels.back().mean;
 }
 
 /// Which quarter of a node holds a place: south-west, south-east, north-west, north-east.
@@ -202,15 +215,24 @@ std::vector<std::uint32_t> PointQuadtree::path_to(Point place) const {
   return path;
 }
 
-std::optional<PassingStreet> PointQuadtree::style_at(Point place, int hierarchy) const {
+std::optional<RankRange> PointQuadtree::ranks_at(Point place, int hierarchy) const {
   const std::vector<std::uint32_t> path = path_to(place);
-  if (path.empty()) return std::nullopt;
-  const auto is_nearer = [&](const LevelStyle& a, const LevelStyle& b) {
-    return std::abs(a.hierarchy - hierarchy) < std::abs(b.hierarchy - hierarchy);
-  };
-  const int known = std::ranges::min_element(nodes_[0].levels, is_nearer)->hierarchy;
   for (std::size_t i = path.size(); i > 0; --i) {
-    if (const LevelStyle* level = find_level(nodes_[path[i - 1]], known)) return level->mean;
+    double below_01 = 0.0;
+    for (const LevelStyle& level : nodes_[path[i - 1]].levels) {
+      if (level.hierarchy == hierarchy) return RankRange{below_01, below_01 + level.probability_01};
+      below_01 += level.probability_01;
+    }
+  }
+  expects(path.empty(), "the set has streets of the level");
+  return std::nullopt;
+}
+
+std::optional<PassingStreet> PointQuadtree::style_at(Point place, const RankRange& ranks) const {
+  const std::vector<std::uint32_t> path = path_to(place);
+  for (std::size_t i = path.size(); i > 0; --i) {
+    const QuadtreeNode& node = nodes_[path[i - 1]];
+    if (!node.points.empty()) return style_between(node, ranks);
   }
   return std::nullopt;
 }

@@ -33,6 +33,14 @@ struct LevelStyle {
   streets::PassingStreet mean;  ///< every attribute its mean; `connections` rounded
 };
 
+/// A part of the streets of a node, ordered by level: from this share of them to that one. Levels
+/// of two fragments correspond by rank and not by number: where main streets are few, level 0 of
+/// the one is not level 0 of the other.
+struct RankRange {
+  double low_01 = 0.0;
+  double high_01 = 1.0;
+};
+
 /// Whether a node was split, and why it was not.
 enum class LeafReason : std::uint8_t { kNotALeaf, kUniform, kMinArea, kMinPoints };
 
@@ -83,10 +91,15 @@ class PointQuadtree {
   [[nodiscard]] bool contains(Point place) const;
   /// The nodes from the root to the leaf that holds the place; empty outside the box.
   [[nodiscard]] std::vector<std::uint32_t> path_to(Point place) const;
-  /// The style of a street of this level at a place: of the smallest node around it that has
-  /// streets of the level, or, where the whole set has none, of the nearest level that there is.
+  /// Where a level stands in the order of levels, by the shares of the streets in the smallest node
+  /// around the place that has streets of the level. Pre: the set has streets of the level.
   /// @returns none outside the box
-  [[nodiscard]] std::optional<streets::PassingStreet> style_at(Point place, int hierarchy) const;
+  [[nodiscard]] std::optional<RankRange> ranks_at(Point place, int hierarchy) const;
+  /// The mean style of the streets that stand there in the order of levels, in the smallest node
+  /// around the place that has points; `hierarchy` is the first level that counts.
+  /// @returns none outside the box
+  [[nodiscard]] std::optional<streets::PassingStreet> style_at(Point place,
+                                                               const RankRange& ranks) const;
   /// Mean area of the parcels in the smallest node around the place that knows one.
   [[nodiscard]] std::optional<double> parcel_area_at_m2(Point place) const;
 

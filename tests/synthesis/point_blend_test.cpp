@@ -173,6 +173,32 @@ INSTANTIATE_TEST_SUITE_P(Positions, BlendAt,
                            return test.param == BlendPositions::kThinned ? "thinned" : "morphed";
                          });
 
+TEST(Blend, LevelsCorrespondByRankSoThatMeansAreLinear) {
+  // Half of the grid's streets are main ones, a twentieth of the others', and widths follow levels.
+  PointSet first = grid_points(20, 20, 50.0, {}, {.width_m = 20.0});
+  for (streets::IntersectionPoint& point : first) point.b->width_m = 10.0;
+  PointSet second = grid_points(20, 20, 50.0, {}, {.width_m = 30.0});
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    second[i].b->width_m = 6.0;
+    if (i % 10 == 0) continue;
+    second[i].a.hierarchy = 1;
+    second[i].a.width_m = 6.0;
+  }
+  const auto width = [](const streets::IntersectionPoint& p) {
+    return 0.5 * (p.a.width_m + p.b->width_m);
+  };
+  EXPECT_NEAR(mean_of(first, width), 15.0, 1e-9);
+  EXPECT_NEAR(mean_of(second, width), 7.2, 1e-9);
+  for (const double w : {0.25, 0.5, 0.75}) {
+    double mean = 0.0;
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      Rng rng(seed);
+      mean += mean_of(blend(first, second, ConstantWeight{w}, {}, rng), width) / 50.0;
+    }
+    EXPECT_NEAR(mean, std::lerp(15.0, 7.2, w), 0.05);
+  }
+}
+
 TEST(Blend, OutsideTheOverlapBothStayAsTheyAre) {
   const PointSet west = grid_points(8, 6, 100.0, {0, 0}, kGridStyle);
   const PointSet east = grid_points(10, 9, 60.0, {450, 10}, kWildStyle);

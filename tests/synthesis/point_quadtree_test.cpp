@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <array>
 #include <numeric>
 #include <set>
 
+#include "core/failure.h"
 #include "support/property.h"
 #include "synthesis/made_points.h"
 #include "synthesis/point_placement.h"
@@ -145,33 +147,55 @@ TEST(PointQuadtree, CountsPointsAtOnePlaceOnce) {
   EXPECT_NEAR(*tree.density_per_m2(0), 400.0 / (1520.0 * 1520.0), 1e-9);
 }
 
-TEST(PointQuadtree, StyleIsTheMeanOfTheLevelInTheSmallestNodeThatHasIt) {
-  PointSet points = grid_points(20, 20, 50.0, {}, {.distance_m = 50.0});
-  const PointSet others =
-      grid_points(5, 5, 200.0, {1200, 0}, {.distance_m = 200.0, .hierarchy = 1});
-  points.insert(points.end(), others.begin(), others.end());
-  const PointQuadtree tree(points);
-  ASSERT_GT(tree.leaf_count(), 1u);
-  EXPECT_DOUBLE_EQ(tree.style_at({100, 100}, 0)->distance_mean_m, 50.0);
-  EXPECT_DOUBLE_EQ(tree.style_at({2000, 0}, 2)->distance_mean_m, 200.0);
-  // Level 0 is nowhere near here: what it is elsewhere in the set.
-  EXPECT_DOUBLE_EQ(tree.style_at({2000, 0}, 0)->distance_mean_m, 50.0);
-  // Level 7 is not in the set: the nearest one that is.
-  EXPECT_DOUBLE_EQ(tree.style_at({2000, 0}, 7)->distance_mean_m, 200.0);
-  EXPECT_FALSE(tree.style_at({-5000, 0}, 0).has_value());
-}
-
-TEST(PointQuadtree, StyleIsThatOfTheLeafWhereAllHaveTheLevel) {
+TEST(PointQuadtree, StyleIsTheMeanInTheLeaf) {
   PointSet points = grid_points(20, 20, 50.0, {}, {.distance_m = 50.0, .parcel_area_m2 = 300.0});
   const PointSet others =
       grid_points(5, 5, 200.0, {1200, 0}, {.distance_m = 200.0, .parcel_area_m2 = 900.0});
   points.insert(points.end(), others.begin(), others.end());
   const PointQuadtree tree(points);
   ASSERT_GT(tree.leaf_count(), 1u);
-  EXPECT_DOUBLE_EQ(tree.style_at({100, 100}, 1)->distance_mean_m, 50.0);
-  EXPECT_DOUBLE_EQ(tree.style_at({1900, 100}, 1)->distance_mean_m, 200.0);
+  EXPECT_DOUBLE_EQ(tree.style_at({100, 100}, {})->distance_mean_m, 50.0);
+  EXPECT_DOUBLE_EQ(tree.style_at({1900, 100}, {})->distance_mean_m, 200.0);
   EXPECT_DOUBLE_EQ(*tree.parcel_area_at_m2({100, 100}), 300.0);
   EXPECT_DOUBLE_EQ(*tree.parcel_area_at_m2({1900, 100}), 900.0);
+  EXPECT_FALSE(tree.style_at({-5000, 0}, {}).has_value());
+  EXPECT_FALSE(tree.ranks_at({-5000, 0}, 0).has_value());
+}
+
+TEST(PointQuadtree, RanksAreSharesInTheOrderOfLevels) {
+  // Of eight streets one is of level 0, five of level 2, two of level 5.
+  PointSet points = grid_points(4, 1, 50.0);
+  const std::array<std::pair<int, int>, 4> levels{{{0, 2}, {2, 2}, {2, 5}, {2, 5}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    points[i].a.hierarchy = levels[i].first;
+    points[i].b->hierarchy = levels[i].second;
+    points[i].a.width_m = 10.0 * levels[i].first;
+    points[i].b->width_m = 10.0 * levels[i].second;
+  }
+  const PointQuadtree tree(points);
+  EXPECT_DOUBLE_EQ(tree.ranks_at({50, 0}, 0)->high_01, 0.125);
+  EXPECT_DOUBLE_EQ(tree.ranks_at({50, 0}, 2)->low_01, 0.125);
+  EXPECT_DOUBLE_EQ(tree.ranks_at({50, 0}, 2)->high_01, 0.75);
+  EXPECT_DOUBLE_EQ(tree.ranks_at({50, 0}, 5)->high_01, 1.0);
+  EXPECT_THROW(static_cast<void>(tree.ranks_at({50, 0}, 3)), LogicError);
+  EXPECT_DOUBLE_EQ(tree.style_at({50, 0}, {0.0, 0.125})->width_m, 0.0);
+  EXPECT_DOUBLE_EQ(tree.style_at({50, 0}, {0.25, 0.5})->width_m, 20.0);
+  EXPECT_DOUBLE_EQ(tree.style_at({50, 0}, {0.5, 1.0})->width_m, 35.0);
+  EXPECT_EQ(tree.style_at({50, 0}, {0.5, 1.0})->hierarchy, 2);
+}
+
+TEST(PointQuadtree, AnEmptyLeafHasTheStyleOfTheNodeAroundIt) {
+  Rng rng = plat::testing::property_rng("PointQuadtree.Empty");
+  PointSet points = scattered_points(rng, 200, {0, 0}, {400, 400}, {.width_m = 7.0});
+  for (const Point corner : {Point{1600, 0}, Point{0, 1600}, Point{1600, 1600}}) {
+    points.push_back(made_point(corner, {.width_m = 7.0}));
+  }
+  const PointQuadtree tree(points, {.min_points = 3});
+  const std::vector<std::uint32_t> path = tree.path_to({700, 700});
+  ASSERT_FALSE(path.empty());
+  ASSERT_TRUE(tree.nodes()[path.back()].points.empty());
+  EXPECT_DOUBLE_EQ(tree.style_at({700, 700}, {})->width_m, 7.0);
+  EXPECT_DOUBLE_EQ(*tree.parcel_area_at_m2({700, 700}), 400.0);
 }
 
 TEST(PointQuadtree, ParcelAreaIsTheMeanOfThosePointsThatKnowOne) {
