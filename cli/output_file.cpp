@@ -11,12 +11,12 @@
 namespace plat::cli {
 
 void expect_output(const std::string& path, std::initializer_list<std::string> inputs,
-                   std::string_view flag) {
+                   std::string_view flag, std::string_view ending) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path target(path);
-  if (target.extension() != ".gpkg" || target.stem().empty())
-    throw InputError(fmt::format("{} {}: must be a file that ends in .gpkg", flag, path));
+  if (target.extension() != ending || target.stem().empty())
+    throw InputError(fmt::format("{} {}: must be a file that ends in {}", flag, path, ending));
   if (fs::is_directory(target, ignored))
     throw InputError(fmt::format("{} {}: is a folder; name a file in it", flag, path));
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");

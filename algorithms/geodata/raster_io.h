@@ -74,6 +74,9 @@ class RasterReader {
   RasterReader& operator=(RasterReader&&) noexcept;
 
   [[nodiscard]] const RasterGrid& grid() const;
+  /// What the file says the picture is (TIFF tag 270, RasterWriteOptions::description); empty where
+  /// it says nothing.
+  [[nodiscard]] std::string description() const;
   /// Pre: the window lies in the grid. Not from two threads at once. @throws InputError where the
   /// file is damaged
   [[nodiscard]] Raster read(const PixelWindow& window) const;

@@ -146,6 +146,11 @@ class RasterReader::Source {
 
   [[nodiscard]] const RasterGrid& grid() const { return grid_; }
 
+  [[nodiscard]] std::string description() const {
+    const char* text = image_->GetMetadataItem("TIFFTAG_IMAGEDESCRIPTION");
+    return text == nullptr ? std::string() : std::string(text);
+  }
+
   [[nodiscard]] Raster read(const PixelWindow& window) const {
     QuietGdal quiet;
     Raster out = empty_raster(grid_, window);
@@ -268,6 +273,8 @@ RasterReader::RasterReader(RasterReader&&) noexcept = default;
 RasterReader& RasterReader::operator=(RasterReader&&) noexcept = default;
 
 const RasterGrid& RasterReader::grid() const { return source_->grid(); }
+
+std::string RasterReader::description() const { return source_->description(); }
 
 Raster RasterReader::read(const PixelWindow& window) const { return source_->read(window); }
 

@@ -74,11 +74,11 @@ Sample sample_area(const Raster& source, const SourcePoint& at, double pixel_m) 
   return sum;
 }
 
-Canvas::Canvas(const geodata::RasterGrid& grid, const geodata::PixelWindow& window)
+CoverageCanvas::CoverageCanvas(const geodata::RasterGrid& grid, const geodata::PixelWindow& window)
     : grid_(grid), window_(window), pixels_(window.width * window.height) {}
 
-void Canvas::add(std::size_t column, std::size_t row, const LinearColour& colour,
-                 std::uint8_t cover) {
+void CoverageCanvas::add(std::size_t column, std::size_t row, const LinearColour& colour,
+                         std::uint8_t cover) {
   Light& light = pixels_[(row - window_.row) * window_.width + (column - window_.column)];
   const auto rounded = [](double value) { return static_cast<std::uint32_t>(value + 0.5); };
   light.red += cover * rounded(colour.red);
@@ -87,7 +87,7 @@ void Canvas::add(std::size_t column, std::size_t row, const LinearColour& colour
   light.cover += cover;
 }
 
-Raster Canvas::over(const Raster& ground) const {
+Raster CoverageCanvas::over(const Raster& ground) const {
   expects(ground.width == window_.width && ground.height == window_.height,
           "the ground is drawn on the same window");
   Raster out = ground;
@@ -108,7 +108,8 @@ Raster Canvas::over(const Raster& ground) const {
   return out;
 }
 
-void draw_parcel(const Polygon& target, const WarpMap& map, const Raster& source, Canvas& canvas) {
+void draw_parcel(const Polygon& target, const WarpMap& map, const Raster& source,
+                 CoverageCanvas& canvas) {
   const geodata::RasterGrid& grid = canvas.grid();
   for_each_covered_row(target, grid, canvas.window(), [&](const CoveredRow& covered) {
     std::size_t column_of_map = 0;

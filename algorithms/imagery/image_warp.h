@@ -35,9 +35,9 @@ Sample sample_area(const geodata::Raster& source, const SourcePoint& at, double 
 /// Guarantees: 1. parcels that share their edges are mixed at the edge by coverage, and the ground
 /// shows through nowhere between them;  2. the result does not depend on the order of adding;
 /// 3. where parcels overlap, they share the pixel.
-class Canvas {
+class CoverageCanvas {
  public:
-  Canvas(const geodata::RasterGrid& grid, const geodata::PixelWindow& window);
+  CoverageCanvas(const geodata::RasterGrid& grid, const geodata::PixelWindow& window);
 
   [[nodiscard]] const geodata::RasterGrid& grid() const { return grid_; }
   [[nodiscard]] const geodata::PixelWindow& window() const { return window_; }
@@ -64,7 +64,7 @@ class Canvas {
 /// Paper:     [AVB08, Sec. 3.2]: textured quadrilaterals
 /// Deviation: area sampling in linear light instead of the graphics card's (ADR 0032)
 void draw_parcel(const Polygon& target, const WarpMap& map, const geodata::Raster& source,
-                 Canvas& canvas);
+                 CoverageCanvas& canvas);
 
 /// What of the example's image a warp needs: its quadrilaterals, and half the footprint of a pixel
 /// around them.

@@ -17,9 +17,10 @@ constexpr std::size_t kMaxBlockVertices = 20000;
 
 }  // namespace
 
-ReadBlocks read_blocks(const geodata::LayerSource& source, Jobs jobs) {
+ReadBlocks read_blocks(const geodata::LayerSource& source, Jobs jobs,
+                       const std::optional<geodata::LocalFrame>& frame) {
   const geodata::Layer layer =
-      geodata::read_layer(source, {.kind = geodata::GeometryKind::kPolygon});
+      geodata::read_layer(source, {.frame = frame, .kind = geodata::GeometryKind::kPolygon});
   const std::vector<blocks::ObservedParcel> shapes = parcels_of(layer);
   const auto admitted = parallel_map<Expected<Polygon>>(shapes.size(), jobs, [&](std::size_t i) {
     return admit_polygon(shapes[i].shape, kMaxBlockVertices);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct ReadBlocks {
 };
 
 /// Every polygon of the layer as a block, admitted to the working grid; the others are failures.
+/// @param frame  to read it in; chosen from the layer if not given
 /// @throws InputError as geodata::read_layer
-ReadBlocks read_blocks(const geodata::LayerSource& source, Jobs jobs);
+ReadBlocks read_blocks(const geodata::LayerSource& source, Jobs jobs,
+                       const std::optional<geodata::LocalFrame>& frame = std::nullopt);
 
 /// Labels the edges from the centrelines in `streets` ("FILE[:layer]"), or, where it is empty, from
 /// the gaps between the blocks.

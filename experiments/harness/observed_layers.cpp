@@ -8,7 +8,6 @@
 #include "core/options.h"
 
 namespace plat::harness {
-namespace {
 
 std::string text_of(const geodata::Attribute& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
@@ -16,8 +15,6 @@ std::string text_of(const geodata::Attribute& value) {
   if (const auto* real = std::get_if<double>(&value)) return fmt::format("{}", *real);
   return {};
 }
-
-}  // namespace
 
 std::vector<blocks::ObservedParcel> parcels_of(const geodata::Layer& layer,
                                                const std::string& id_field) {

@@ -55,7 +55,7 @@ Raster waves(double left_m, double top_m, double pixel_m, std::size_t width, std
   return out;
 }
 
-Canvas canvas_over(const Box& box, double pixel_m) {
+CoverageCanvas canvas_over(const Box& box, double pixel_m) {
   const RasterGrid grid{{},
                         box.min.x,
                         box.max.y,
@@ -65,7 +65,7 @@ Canvas canvas_over(const Box& box, double pixel_m) {
   return {grid, {0, 0, grid.width, grid.height}};
 }
 
-Raster ground_of(const Canvas& canvas, Colour colour) {
+Raster ground_of(const CoverageCanvas& canvas, Colour colour) {
   Raster ground = geodata::empty_raster(canvas.grid(), canvas.window());
   std::fill(ground.pixels.begin(), ground.pixels.end(), colour);
   return ground;
@@ -153,7 +153,7 @@ TEST(ImageWarp, TheIdentityReproducesTheSource) {
   Rng rng = property_rng("ImageWarp.TheIdentityReproducesTheSource");
   const Polygon parcel{{{0, 0}, {20, 0}, {20, 12}, {3, 14}}, {}};
   const Raster source = noise(rng, -1, 15, 0.25, 90, 70);
-  Canvas canvas(geodata::grid_of(source), {0, 0, source.width, source.height});
+  CoverageCanvas canvas(geodata::grid_of(source), {0, 0, source.width, source.height});
   draw_parcel(parcel, map_between(parcel, parcel), source, canvas);
   const Colour nothing{0, 0, 0, 0};
   const Raster drawn = canvas.over(ground_of(canvas, nothing));
@@ -177,7 +177,7 @@ TEST(ImageWarp, AMinifiedCheckerboardIsGrey) {
     board.pixels[i] = {v, v, v, 255};
   }
   const Polygon source = rectangle(0, 0, 32, 31.9);
-  Canvas canvas = canvas_over({{0, 0}, {32, 32}}, 1.0);  // eight times coarser
+  CoverageCanvas canvas = canvas_over({{0, 0}, {32, 32}}, 1.0);  // eight times coarser
   draw_parcel(rectangle(0, 0, 32, 31.9), map_between(source, source), board, canvas);
   const Raster drawn = canvas.over(ground_of(canvas, {9, 9, 9, 255}));
   for (std::size_t r = 1; r + 1 < 32; ++r) {
@@ -189,7 +189,7 @@ TEST(ImageWarp, AMinifiedCheckerboardIsGrey) {
 double difference_to_supersampling(const Polygon& from, const Polygon& to, const Raster& source,
                                    double pixel_m) {
   const WarpMap map = map_between(from, to);
-  Canvas canvas = canvas_over(box_of(to).expanded(1.0), pixel_m);
+  CoverageCanvas canvas = canvas_over(box_of(to).expanded(1.0), pixel_m);
   draw_parcel(to, map, source, canvas);
   const Colour nothing{0, 0, 0, 0};
   const Raster drawn = canvas.over(ground_of(canvas, nothing));
@@ -240,7 +240,7 @@ TEST(ImageWarp, LeavesNoPixelOfAParcelUnfilled) {
     Raster source = image(box.min.x, box.max.y, 1.0, static_cast<std::size_t>(box.width()),
                           static_cast<std::size_t>(box.height()));
     std::fill(source.pixels.begin(), source.pixels.end(), Colour{200, 100, 50, 255});
-    Canvas canvas = canvas_over(box_of(to).expanded(1.0), 0.5);
+    CoverageCanvas canvas = canvas_over(box_of(to).expanded(1.0), 0.5);
     draw_parcel(to, map_between(from, to), source, canvas);
     const Colour hole{0, 0, 0, 255};
     const Raster drawn = canvas.over(ground_of(canvas, hole));
@@ -253,8 +253,8 @@ TEST(ImageWarp, LeavesNoPixelOfAParcelUnfilled) {
   }
 }
 
-TEST(Canvas, NeighboursShareAPixelWithoutGround) {
-  Canvas canvas = canvas_over({{0, 0}, {1, 1}}, 1.0);
+TEST(CoverageCanvas, NeighboursShareAPixelWithoutGround) {
+  CoverageCanvas canvas = canvas_over({{0, 0}, {1, 1}}, 1.0);
   canvas.add(0, 0, {to_linear(255), 0, 0}, 6);
   canvas.add(0, 0, {0, to_linear(255), 0}, 10);
   const Colour mixed = canvas.over(ground_of(canvas, {0, 0, 255, 255})).at(0, 0);
@@ -263,9 +263,9 @@ TEST(Canvas, NeighboursShareAPixelWithoutGround) {
   EXPECT_EQ(mixed.blue, 0);
 }
 
-TEST(Canvas, OverlapsShareThePixelInAnyOrder) {
-  Canvas one = canvas_over({{0, 0}, {1, 1}}, 1.0);
-  Canvas other = canvas_over({{0, 0}, {1, 1}}, 1.0);
+TEST(CoverageCanvas, OverlapsShareThePixelInAnyOrder) {
+  CoverageCanvas one = canvas_over({{0, 0}, {1, 1}}, 1.0);
+  CoverageCanvas other = canvas_over({{0, 0}, {1, 1}}, 1.0);
   const LinearColour a{to_linear(255), 100, 7};
   const LinearColour b{0, to_linear(255), 9};
   one.add(0, 0, a, 16);
