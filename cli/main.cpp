@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   plat::cli::add_search_command(app, action);
   plat::cli::add_build_command(app, action);
   plat::cli::add_imagery_command(app, action);
+  plat::cli::add_orthophoto_command(app, action);
   try {
     app.parse(argc, argv);
     return action();

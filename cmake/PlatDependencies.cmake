@@ -15,6 +15,8 @@ find_package(GEOS 3.11 REQUIRED)
 # CONFIG: CGAL brings a module of the same name that looks elsewhere.
 find_package(OpenMesh CONFIG REQUIRED)
 find_package(TinyGLTF CONFIG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 if(PLAT_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -39,6 +39,8 @@ CPLStringList creation_options(const RasterWriteOptions& options) {
   out.SetNameValue("INTERLEAVE", "PIXEL");
   out.SetNameValue("COMPRESS", is_jpeg ? "JPEG" : "DEFLATE");
   out.SetNameValue("BIGTIFF", "IF_SAFER");
+  // Tiles are compressed in parallel and written in order.
+  out.SetNameValue("NUM_THREADS", "2");
   if (is_jpeg) {
     out.SetNameValue("PHOTOMETRIC", "YCBCR");
     out.SetNameValue("JPEG_QUALITY", "90");
