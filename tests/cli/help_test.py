@@ -19,6 +19,7 @@ COMMANDS = {
     ("run",): ["config", "--out", "--data", "--seed", "--jobs", "--resume"],
     ("report",): ["dir", "report.html", "--worst"],
     ("figure",): ["names", "--list", "--out", "PLAT_DATA_DIR"],
+    ("orthophoto",): ["--city", "--streets", "--parcels", "--footprints", "--water", "--window", "--pixel", "--seed", "--out"],
     ("search",): ["problem", "--method", "--set", "--k", "--json", "--out", "--relax"],
 }
 
