@@ -14,7 +14,8 @@ double carriageway_m(double width_m);
 /// The pavements of all streets: what lies between the plots, drawn before them.
 void add_pavements(Scene& scene, const MapLayers& layers);
 
-/// Where the map has no streets: asphalt around the plots, so that the gaps between them are streets.
+/// Where the map has no streets: asphalt around the plots, so that the gaps between them are
+/// streets.
 void add_gaps(Scene& scene, const MapLayers& layers);
 
 /// Kerbs, asphalt, lane lines, crossings and cars, drawn after the plots.
