@@ -300,6 +300,21 @@ bool GrowthPlane::admits_line(std::span<const Point> line) const {
   return true;
 }
 
+bool GrowthPlane::passes_over(std::uint32_t from, std::uint32_t to, double clearance_m) const {
+  if (!(clearance_m > 0.0)) return false;
+  const Segment way = state_->between(from, to);
+  const Point along = way.b - way.a;
+  Box box{way.a, way.a};
+  box.add(way.b);
+  return !state_->cells.for_each_in(box.expanded(clearance_m), [&](std::uint32_t i) {
+    const Item& item = state_->items[i];
+    if (item.kind != Item::Kind::kVertex) return true;
+    const double t = dot(item.segment.a - way.a, along);
+    const bool is_beside = t > 0.0 && t < squared_length(along);
+    return !is_beside || distance(way, item.segment.a) >= clearance_m;
+  });
+}
+
 void GrowthPlane::add(std::uint32_t from, std::uint32_t to) {
   const Segment segment = state_->between(from, to);
   state_->put_line(std::vector<Point>{segment.a, segment.b}, Item::Kind::kGrown);

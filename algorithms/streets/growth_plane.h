@@ -50,6 +50,9 @@ class GrowthPlane {
   /// The same for a curve between two vertices: no part of it crosses or touches what is there, nor
   /// itself, nor leaves the boundary; the straight segment from end to end is not looked at.
   [[nodiscard]] bool admits_line(std::span<const Point> line) const;
+  /// Whether the straight way from a vertex to another comes nearer than `clearance_m` to one that
+  /// it passes: a street of twice that width would run over it.
+  [[nodiscard]] bool passes_over(std::uint32_t from, std::uint32_t to, double clearance_m) const;
   /// Pre: admitted.
   void add(std::uint32_t from, std::uint32_t to);
 
@@ -81,7 +84,7 @@ class GrowthPlane {
 struct GrownEdge {
   std::uint32_t from = 0;  ///< vertex of the plane
   std::uint32_t to = 0;
-  GrownSegment segment;
+  GrownSegment segment{};
   double width_m = 0.0;
   Polyline line{};  ///< from vertex to vertex, as bent in the plane; empty: straight
 };

