@@ -8,6 +8,7 @@
 #include "blocks/edge_labels.h"
 #include "command.h"
 #include "geodata/layer_io.h"
+#include "harness/city_layers.h"
 #include "harness/observed_layers.h"
 #include "output_file.h"
 #include "streets/network_cleaning.h"
@@ -119,40 +120,6 @@ Layer edges_layer(const Result& result) {
   return layer;
 }
 
-Layer streets_layer(const Result& result) {
-  Layer layer{"streets",
-              GeometryKind::kLine,
-              result.frame,
-              {{"street", FieldType::kInteger},
-               {"source", FieldType::kText},
-               {"name", FieldType::kText},
-               {"class", FieldType::kText},
-               {"structure", FieldType::kText},
-               {"level", FieldType::kInteger},
-               {"from_node", FieldType::kInteger},
-               {"to_node", FieldType::kInteger},
-               {"width_m", FieldType::kReal},
-               {"width_source", FieldType::kText}},
-              {}};
-  for (const streets::Street& street : result.network.streets) {
-    Feature feature;
-    feature.id = std::to_string(street.id.value);
-    feature.lines.push_back(street.line);
-    feature.attributes = {number(street.id.value),
-                          street.source_id,
-                          street.attributes.name,
-                          street.attributes.street_class,
-                          std::string(streets::structure_name(street.attributes.structure)),
-                          std::int64_t{street.attributes.level},
-                          number(street.from),
-                          number(street.to),
-                          street.width_m,
-                          std::string(streets::width_source_name(street.width_source))};
-    layer.features.push_back(std::move(feature));
-  }
-  return layer;
-}
-
 Layer repairs_layer(const Result& result) {
   Layer layer{
       "repairs",
@@ -236,7 +203,8 @@ ExitStatus run(const Arguments& arguments) {
     throw InputError("plat blocks: give --streets, --parcels or both");
   expect_output(arguments.out, {arguments.streets, arguments.parcels});
   const Result result = find_blocks(arguments);
-  const std::vector<Layer> layers{blocks_layer(result), edges_layer(result), streets_layer(result),
+  const std::vector<Layer> layers{blocks_layer(result), edges_layer(result),
+                                  harness::street_layer(result.network, result.frame),
                                   repairs_layer(result), failures_layer(result)};
   geodata::write_layers(arguments.out, layers);
   fmt::print("{}: {} blocks, {} streets, {} failures; {}\n", arguments.out, result.blocks.size(),

@@ -82,6 +82,41 @@ geodata::Layer block_layer(std::span<const blocks::Block> blocks,
   return layer;
 }
 
+geodata::Layer street_layer(const streets::StreetNetwork& network,
+                            const geodata::LocalFrame& frame) {
+  geodata::Layer layer{"streets",
+                       geodata::GeometryKind::kLine,
+                       frame,
+                       {{"street", FieldType::kInteger},
+                        {"source", FieldType::kText},
+                        {"name", FieldType::kText},
+                        {"class", FieldType::kText},
+                        {"structure", FieldType::kText},
+                        {"level", FieldType::kInteger},
+                        {"from_node", FieldType::kInteger},
+                        {"to_node", FieldType::kInteger},
+                        {"width_m", FieldType::kReal},
+                        {"width_source", FieldType::kText}},
+                       {}};
+  for (const streets::Street& street : network.streets) {
+    geodata::Feature feature;
+    feature.id = fmt::format("{}", street.id.value);
+    feature.lines.push_back(street.line);
+    feature.attributes = {std::int64_t{street.id.value},
+                          street.source_id,
+                          street.attributes.name,
+                          street.attributes.street_class,
+                          std::string(streets::structure_name(street.attributes.structure)),
+                          std::int64_t{street.attributes.level},
+                          std::int64_t{street.from},
+                          std::int64_t{street.to},
+                          street.width_m,
+                          std::string(streets::width_source_name(street.width_source))};
+    layer.features.push_back(std::move(feature));
+  }
+  return layer;
+}
+
 FailureLayer::FailureLayer(const geodata::LocalFrame& frame) {
   layer_.name = "failures";
   layer_.frame = frame;

@@ -7,6 +7,7 @@
 #include "blocks/block.h"
 #include "geodata/layer.h"
 #include "harness/subdivision.h"
+#include "streets/street_network.h"
 
 namespace plat::harness {
 
@@ -30,6 +31,11 @@ class ParcelLayer {
 /// Blocks with block_id, source_id, area_m2, the number of street edges and the length along
 /// streets.
 geodata::Layer block_layer(std::span<const blocks::Block> blocks, const geodata::LocalFrame& frame);
+
+/// Streets with what plat edit reads them from: street, source, name, class, structure, level,
+/// from_node, to_node, width_m, width_source.
+geodata::Layer street_layer(const streets::StreetNetwork& network,
+                            const geodata::LocalFrame& frame);
 
 /// Blocks that could not be divided: block_id, strategy, repetition, code, message. A row without a
 /// shape has none.
