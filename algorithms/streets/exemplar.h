@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "core/options.h"
 #include "core/polygon.h"
 #include "streets/intersection_point.h"
 #include "streets/street_chains.h"
@@ -18,6 +20,11 @@ struct ExemplarOptions {
   ChainOptions chains{};
   HierarchyOptions hierarchy{};
   double parcel_radius_m = 60.0;  ///< parcels whose centroid is nearer than this are nearby
+  /// Those of chains and hierarchy have lists of their own.
+  static constexpr auto fields() {
+    return std::tuple{Field{"parcel_radius_m", &ExemplarOptions::parcel_radius_m, 1.0, 1000.0,
+                            "Parcels whose centroid is nearer than this to a point are nearby."}};
+  }
 };
 
 /// What can be copied from an observed street network: its intersection points with their

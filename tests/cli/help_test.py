@@ -14,6 +14,7 @@ COMMANDS = {
     ("data", "fetch"): ["name"],
     ("data", "check"): ["names"],
     ("blocks",): ["--streets", "--out", "FILE[:layer]", "--jobs"],
+    ("exemplar",): ["city", "--out", "--parcels", "--window", "--set", "main_share_01", "FILE[:layer]"],
     ("subdivide",): ["--blocks", "--streets", "--observed", "--strategy", "--set", "--seed", "--jobs", "--out", "--trace"],
     ("compare",): ["observed", "generated", "--out", "FILE[:layer]", "--seed", "--jobs"],
     ("run",): ["config", "--out", "--data", "--seed", "--jobs", "--resume"],

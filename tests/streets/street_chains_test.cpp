@@ -108,10 +108,10 @@ TEST(ChainsOf, NameDoesNotTurnBack) {
 }
 
 TEST(ChainsOf, StraightestPairIsJoinedFirst) {
-  // From A, both B (27 degrees) and C (0 degrees) would do.
+  // From A, both B (27 degrees off) and C (straight on) would do.
   EXPECT_EQ(chains_on(R"(
-          B
-       .
+            B
+
      A  X  C
   )",
                       {"AX", "XB", "XC"}),
@@ -162,15 +162,14 @@ TEST(ChainsOf, RoundaboutOfPiecesIsOneClosedChain) {
   EXPECT_EQ(ring->nodes.front(), ring->nodes.back());
 }
 
-TEST(ChainsOf, RoundedCornersDoNotTurnAStreet) {
-  // The side street's last metre runs along the main street.
-  const std::vector<RawStreet> raw{{"main", {{-100, 0}, {0, 0}, {100, 0}}, {}},
-                                   {"side", {{0, 0}, {1, 0.5}, {1.5, 2}, {1.5, 80}}, {}}};
-  const auto chains = chains_of(build_network(raw).network, {.max_turn_rad = 1.2});
-  std::vector<std::size_t> sizes;
-  for (const StreetChain& chain : chains) sizes.push_back(chain.pieces.size());
-  std::sort(sizes.begin(), sizes.end());
-  EXPECT_EQ(sizes, (std::vector<std::size_t>{1, 2}));
+TEST(ChainsOf, KinkAtACrossingDoesNotPartAStreet) {
+  // The street jumps aside by a metre where it passes the crossing, 63 degrees for its first metre.
+  const std::vector<RawStreet> raw{{"west", {{-100, 0}, {0, 0}}, {}},
+                                   {"east", {{0, 0}, {0.5, 1}, {100, 1}}, {}},
+                                   {"south", {{0, 0}, {0, -80}}, {}}};
+  const auto chains = chains_of(build_network(raw).network);
+  ASSERT_EQ(chains.size(), 2U);
+  EXPECT_EQ(chains[0].pieces.size() + chains[1].pieces.size(), 3U);
 }
 
 TEST(ChainsOf, BridgeGoesOnAsTheStreetOnTheGround) {
