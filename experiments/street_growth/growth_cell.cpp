@@ -1,5 +1,6 @@
 #include "street_growth/growth_cell.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -70,6 +71,29 @@ void add_measures(const KnownCity& city, const Growth& growth, const GrowthConfi
     cell.scalars.push_back(scalar.value(grown));
 }
 
+bool is_same(const Growth& a, const Growth& b) {
+  const auto same_street = [](const streets::Street& s, const streets::Street& t) {
+    return s.line == t.line;
+  };
+  const auto same_level = [](const streets::GrownSegment& s, const streets::GrownSegment& t) {
+    return s.hierarchy == t.hierarchy;
+  };
+  return std::ranges::equal(a.network.streets, b.network.streets, same_street) &&
+         std::ranges::equal(a.segments, b.segments, same_level) && a.left_alone == b.left_alone;
+}
+
+GrowthCell judged(const KnownCity& city, const Growth& growth, const GrowthConfig& config) {
+  GrowthCell cell;
+  cell.left_alone = growth.left_alone.size();
+  const std::vector<int> levels = streets::levels_of(growth);
+  const LevelledNetwork known{city.observed.network, city.levels};
+  const LevelledNetwork grown{growth.network, levels};
+  cell.edges = by_tile(streets::recover_edges(known, grown, city.places), config.tile_m);
+  cell.length = by_tile(streets::recover_length(known, grown, config.length), config.tile_m);
+  add_measures(city, growth, config, cell);
+  return cell;
+}
+
 }  // namespace
 
 KnownCity know_city(const CityChoice& choice, const GrowthConfig& config, Jobs jobs) {
@@ -84,25 +108,27 @@ KnownCity know_city(const CityChoice& choice, const GrowthConfig& config, Jobs j
   return city;
 }
 
-GrowthCell run_cell(const KnownCity& city, const Variant& variant, int repetition,
-                    const GrowthConfig& config) {
-  GrowthCell cell;
-  const auto start = std::chrono::steady_clock::now();
-  const Expected<Growth> growth = regrown(city, variant, repetition, config);
-  cell.growth_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!growth) {
-    cell.status = failure_name(growth.error().code);
-    cell.message = growth.error().message;
-    return cell;
+std::vector<GrowthCell> run_cells(const KnownCity& city, const Variant& variant, int repetitions,
+                                  const GrowthConfig& config) {
+  std::vector<GrowthCell> cells;
+  std::optional<Growth> before;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    const auto start = std::chrono::steady_clock::now();
+    Expected<Growth> growth = regrown(city, variant, repetition, config);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    if (!growth) {
+      cells.emplace_back();
+      cells.back().status = failure_name(growth.error().code);
+      cells.back().message = growth.error().message;
+      before.reset();
+    } else {
+      const bool is_known = before && is_same(*before, *growth);
+      cells.push_back(is_known ? cells.back() : judged(city, *growth, config));
+      before = *std::move(growth);
+    }
+    cells.back().growth_s = time.count();
   }
-  cell.left_alone = growth->left_alone.size();
-  const std::vector<int> levels = streets::levels_of(*growth);
-  const LevelledNetwork known{city.observed.network, city.levels};
-  const LevelledNetwork grown{growth->network, levels};
-  cell.edges = by_tile(streets::recover_edges(known, grown, city.places), config.tile_m);
-  cell.length = by_tile(streets::recover_length(known, grown, config.length), config.tile_m);
-  add_measures(city, *growth, config, cell);
-  return cell;
+  return cells;
 }
 
 Expected<streets::Recovery> judged_edges(const KnownCity& city, const Variant& variant,

@@ -58,9 +58,11 @@ struct GrowthCell {
   [[nodiscard]] bool is_ok() const { return status == "ok"; }
 };
 
-/// Copies the city's points, regrows it by the variant with stream `repetition` and compares.
-GrowthCell run_cell(const KnownCity& city, const Variant& variant, int repetition,
-                    const GrowthConfig& config);
+/// Copies the city's points, regrows it by the variant with streams 0, 1, ..., `repetitions` - 1
+/// and compares each growth with the city. A growth that is the one before again is not judged
+/// again.
+std::vector<GrowthCell> run_cells(const KnownCity& city, const Variant& variant, int repetitions,
+                                  const GrowthConfig& config);
 
 /// The same growth again, edge by edge: for maps.
 Expected<streets::Recovery> judged_edges(const KnownCity& city, const Variant& variant,

@@ -27,13 +27,6 @@ json read_json(const std::string& file) {
   return object;
 }
 
-/// A cell to be run.
-struct Task {
-  std::size_t city = 0;
-  std::size_t variant = 0;
-  int seed = 0;
-};
-
 std::vector<CityResult> know_cities(const GrowthConfig& config, Jobs jobs) {
   std::vector<CityResult> out;
   for (const CityChoice& choice : config.cities) {
@@ -52,20 +45,17 @@ std::vector<CityResult> know_cities(const GrowthConfig& config, Jobs jobs) {
 
 std::vector<CityResult> run_all(const GrowthConfig& config, Jobs jobs) {
   std::vector<CityResult> cities = know_cities(config, jobs);
-  std::vector<Task> tasks;
+  std::vector<std::pair<std::size_t, std::size_t>> tasks;  // city, variant
   for (std::size_t c = 0; c < cities.size(); ++c) {
     if (!cities[c].city) continue;
-    for (std::size_t v = 0; v < config.variants.size(); ++v) {
-      const int seeds = config.seeds_of(config.variants[v]);
-      cities[c].cells.emplace_back(static_cast<std::size_t>(seeds));
-      for (int seed = 0; seed < seeds; ++seed) tasks.push_back({c, v, seed});
-    }
+    cities[c].cells.resize(config.variants.size());
+    for (std::size_t v = 0; v < config.variants.size(); ++v) tasks.emplace_back(c, v);
   }
   Progress progress("street_growth", tasks.size());
   parallel_for(tasks.size(), jobs, [&](std::size_t i) {
-    const Task& task = tasks[i];
-    cities[task.city].cells[task.variant][static_cast<std::size_t>(task.seed)] =
-        run_cell(*cities[task.city].city, config.variants[task.variant], task.seed, config);
+    const auto [c, v] = tasks[i];
+    const Variant& variant = config.variants[v];
+    cities[c].cells[v] = run_cells(*cities[c].city, variant, config.seeds_of(variant), config);
     progress.step();
   });
   return cities;
