@@ -125,6 +125,7 @@ GrowthConfig parse_growth_config(const json& object, const std::string& source, 
   for (const json& city : list_at(reader, "cities", source))
     out.cities.push_back(read_city(city, source));
   out.variants = read_strategies(reader, menu, source);
+  expect_usable(out.variants, menu, source);
   const std::string reference = reader.text("reference", out.variants.front().label);
   const auto found = std::ranges::find(out.variants, reference, &Variant::label);
   if (found == out.variants.end())
