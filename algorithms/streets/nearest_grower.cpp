@@ -64,7 +64,7 @@ Expected<Growth> NearestGrower::grow(const GrowthSite& site, Rng& /*rng*/) const
       socket.free_connections =
           std::min(socket.free_connections, static_cast<std::uint32_t>(*options_.max_connections));
   }
-  return grow_shortest_first(site, *plane, std::move(sockets), pairs);
+  return grow_shortest_first(site, *plane, std::move(sockets), pairs, options_.clearance_widths);
 }
 
 }  // namespace plat::streets

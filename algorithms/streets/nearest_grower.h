@@ -15,7 +15,8 @@ namespace plat::streets {
 /// open end more than one;  2. no grown street is longer than the site's largest length;  3. two
 /// points of which one is among the `neighbours` nearest of the other are connected, or one of them
 /// has no connection left, or the way is barred;  4. the result does not depend on the order of the
-/// points, nor on the stream.
+/// points, nor on the stream;  5. no street passes a vertex nearer than `clearance_widths` of its
+/// width.
 /// Complexity: O(n log n) for `neighbours` fixed and segments of similar length.
 /// Deviation:  none of [AVB08], which has no baselines (ADR 0028).
 class NearestGrower {
@@ -30,6 +31,7 @@ class NearestGrower {
     int neighbours = 16;  ///< how many of the nearest points of each are looked at
     /// of a point; none: as many as its streets have
     std::optional<double> max_connections = std::nullopt;
+    double clearance_widths = 0.0;  ///< of the street's own width
 
     static constexpr auto fields() {
       return std::tuple{
@@ -38,9 +40,11 @@ class NearestGrower {
                         "points know; none: any length"},
           Field{"neighbours", &Options::neighbours, 1, 256,
                 "how many of the nearest points of each are looked at"},
-          OptionalField{
-              "max_connections", &Options::max_connections, 1.0, 16.0,
-              "a point is connected at most so often; none: as often as its streets say"}};
+          OptionalField{"max_connections", &Options::max_connections, 1.0, 16.0,
+                        "a point is connected at most so often; none: as often as its streets say"},
+          Field{"clearance_widths", &Options::clearance_widths, 0.0, 10.0,
+                "a street passes no point nearer than this share of its width; 0: through none "
+                "exactly"}};
     }
   };
 

@@ -41,9 +41,9 @@ struct SegmentStyle {
 SegmentStyle style_between(const Socket& a, const Socket& b);
 
 /// Connects pairs by straight segments, the shortest first, of equally long ones that of the lower
-/// numbers: each where both sockets have a connection left and the plane admits it. Every segment
-/// is a street of its own.
+/// numbers: each where both sockets have a connection left, the plane admits it, and it passes no
+/// vertex nearer than `clearance_widths` of its width. Every segment is a street of its own.
 Growth grow_shortest_first(const GrowthSite& site, GrowthPlane& plane, std::vector<Socket> sockets,
-                           std::span<const SocketPair> pairs);
+                           std::span<const SocketPair> pairs, double clearance_widths = 0.0);
 
 }  // namespace plat::streets

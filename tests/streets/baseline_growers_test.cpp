@@ -182,6 +182,19 @@ TEST(NearestGrower, DoesNotDependOnTheOrderOfThePoints) {
   expect_same_whatever_the_order(NearestGrower({}), 23);
 }
 
+TEST(NearestGrower, PassesNoPointNearerThanItsShareOfItsWidth) {
+  // Three points on a line but for two metres: from end to end runs over the one between.
+  GrowthSite site;
+  for (const Point place : {Point{0, 0}, Point{50, 2}, Point{100, 0}})
+    site.points.push_back(crossing_at(place, 100.0));
+  const auto streets = [&](double clearance_widths) {
+    return grown(NearestGrower({.clearance_widths = clearance_widths}), site).segments.size();
+  };
+  EXPECT_EQ(streets(0.0), 3U);
+  EXPECT_EQ(streets(0.1), 3U) << "a metre of ten";
+  EXPECT_EQ(streets(0.5), 2U) << "five metres of ten";
+}
+
 // ---- relative_neighbourhood ----
 
 TEST(RelativeNeighbourhoodGrower, IsTheSkeletonWhereNothingBarsIt) {
