@@ -8,22 +8,35 @@
 namespace plat::imagery {
 namespace {
 
-/// One pass of a running mean over a torus; `stride` 1 blurs rows, `size` columns.
-void blur_lines(std::vector<float>& values, std::size_t size, std::size_t radius, bool is_rows) {
+/// A running mean over the rows of a torus.
+void blur_rows(std::vector<float>& values, std::size_t size, std::size_t radius) {
   std::vector<float> line(size);
-  const std::size_t step = is_rows ? 1 : size;
-  const float weight = 1.0F / static_cast<float>(2 * radius + 1);
-  for (std::size_t k = 0; k < size; ++k) {
-    const std::size_t first = is_rows ? k * size : k;
+  const double weight = 1.0 / static_cast<double>(2 * radius + 1);
+  for (std::size_t row = 0; row < size; ++row) {
+    float* first = values.data() + row * size;
+    std::copy_n(first, size, line.begin());
     double sum = 0.0;
     for (std::size_t i = 0; i < 2 * radius + 1; ++i)
-      sum += static_cast<double>(values[first + ((i + size - radius) % size) * step]);
+      sum += static_cast<double>(line[(i + size - radius) % size]);
     for (std::size_t i = 0; i < size; ++i) {
-      line[i] = static_cast<float>(sum) * weight;
-      sum += static_cast<double>(values[first + ((i + radius + 1) % size) * step]) -
-             static_cast<double>(values[first + ((i + size - radius) % size) * step]);
+      first[i] = static_cast<float>(sum * weight);
+      const std::size_t entering = i + radius + 1 < size ? i + radius + 1 : i + radius + 1 - size;
+      const std::size_t leaving = i >= radius ? i - radius : i + size - radius;
+      sum += static_cast<double>(line[entering]) - static_cast<double>(line[leaving]);
     }
-    for (std::size_t i = 0; i < size; ++i) values[first + i * step] = line[i];
+  }
+}
+
+/// Rows become columns.
+void transpose(std::vector<float>& values, std::size_t size) {
+  constexpr std::size_t kBlock = 32;  // both sides of the exchange stay in the cache
+  for (std::size_t r0 = 0; r0 < size; r0 += kBlock) {
+    for (std::size_t c0 = r0; c0 < size; c0 += kBlock) {
+      for (std::size_t r = r0; r < std::min(r0 + kBlock, size); ++r) {
+        for (std::size_t c = std::max(c0, r + 1); c < std::min(c0 + kBlock, size); ++c)
+          std::swap(values[r * size + c], values[c * size + r]);
+      }
+    }
   }
 }
 
@@ -54,9 +67,9 @@ NoiseField::NoiseField(std::uint64_t seed, std::size_t size_px, std::size_t blur
   Rng rng(seed);
   for (float& v : values_) v = static_cast<float>(rng.uniform_01()) - 0.5F;
   // Three running means are close to a Gaussian.
-  for (int pass = 0; pass < 3 && blur_px > 0; ++pass) {
-    blur_lines(values_, size_, blur_px, true);
-    blur_lines(values_, size_, blur_px, false);
+  for (int direction = 0; direction < 2 && blur_px > 0; ++direction) {
+    for (int pass = 0; pass < 3; ++pass) blur_rows(values_, size_, blur_px);
+    transpose(values_, size_);
   }
   double sum = 0.0;
   double squares = 0.0;
@@ -91,15 +104,17 @@ void apply_texture(Canvas& canvas, const PictureNoise& noise) {
   const PixelBlock& block = canvas.block;
   for (std::size_t y = 0; y < block.height; ++y) {
     const std::int64_t row = block.row + static_cast<std::int64_t>(y);
+    NoiseField::Walk grain(noise.grain, block.column, row);
+    NoiseField::Walk fine(noise.fine, block.column, row);
+    NoiseField::Walk mediums(noise.medium, block.column, row);
+    NoiseField::Walk broads(noise.broad, block.column, row);
     for (std::size_t x = 0; x < block.width; ++x) {
-      const std::int64_t column = block.column + static_cast<std::int64_t>(x);
       const std::size_t p = y * block.width + x;
       const Weave& weave = kWeaves[static_cast<std::size_t>(canvas.material[p])];
-      const float medium = noise.medium.at(column, row);
-      const float broad = noise.broad.at(column, row);
-      const float light = 1.0F + weave.grain * noise.grain.at(column, row) +
-                          weave.fine * noise.fine.at(column, row) + weave.medium * medium +
-                          weave.broad * broad;
+      const float medium = mediums.next();
+      const float broad = broads.next();
+      const float light = 1.0F + weave.grain * grain.next() + weave.fine * fine.next() +
+                          weave.medium * medium + weave.broad * broad;
       const float dryness = weave.hue * (0.6F * broad + 0.4F * medium);
       Canvas::Pixel& c = canvas.colour[p];
       c.red *= light * (1.0F + dryness);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "imagery/picture_style.h"
 #include "imagery/plot.h"
 #include "imagery/scene.h"
@@ -23,8 +25,8 @@ void scatter_trees(Scene& scene, const Polygon& shape, double spacing_m, double 
     tree.place = {rng.uniform(box.min.x, box.max.x), rng.uniform(box.min.y, box.max.y)};
     // Many small ones, few large.
     const double size = rng.uniform_01();
-    tree.radius_m = 0.8 + (largest_m - 0.8) * size * size;
-    tree.height_m = 1.9 * tree.radius_m + rng.uniform(0.5, 2.5);
+    tree.radius_m = 0.8 + (largest_m - 0.8) * size * std::sqrt(size);
+    tree.height_m = 1.4 * tree.radius_m + rng.uniform(0.8, 2.6);
     tree.tint = crown_tint(rng, style.climate);
     tree.variation = static_cast<std::uint32_t>(rng.index(1000000));
     if (locate(shape, tree.place) == Side::kInside && !is_taken(tree.place, tree.radius_m))

@@ -113,14 +113,16 @@ class RenderedOrthophoto::Painter {
       return (1.0F - 2.0F * kBlur) * row[0].*channel + kBlur * (row[-1].*channel + row[1].*channel);
     };
     for (std::size_t y = 0; y < tile.height; ++y) {
+      // Another part of the noise than the texture's.
+      NoiseField::Walk grains(noise_.grain, tile.column + 131,
+                              tile.row + static_cast<std::int64_t>(y) + 57);
       for (std::size_t x = 0; x < tile.width; ++x) {
         const Canvas::Pixel* middle = canvas.colour.data() + (above + y) * block.width + left + x;
         const auto channel = [&](float Canvas::Pixel::* c) {
           return (1.0F - 2.0F * kBlur) * blurred(middle, c) +
                  kBlur * (blurred(middle - block.width, c) + blurred(middle + block.width, c));
         };
-        const float grain = noise_.grain.at(tile.column + static_cast<std::int64_t>(x) + 131,
-                                            tile.row + static_cast<std::int64_t>(y) + 57);
+        const float grain = grains.next();
         out.at(out_left + x, y) = {developed(channel(&Canvas::Pixel::red), kHaze.red, grain),
                                    developed(channel(&Canvas::Pixel::green), kHaze.green, grain),
                                    developed(channel(&Canvas::Pixel::blue), kHaze.blue, grain),

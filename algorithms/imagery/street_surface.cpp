@@ -242,7 +242,7 @@ void add_street_trees(Scene& scene, const MapLayers& layers, const PictureStyle&
         Tree tree;
         tree.place = s.place + side * (carriageway / 2.0 + 1.0) * perpendicular(s.along);
         tree.radius_m = rng.uniform(1.8, 4.2);
-        tree.height_m = 2.0 * tree.radius_m + rng.uniform(1.5, 4.0);
+        tree.height_m = 1.4 * tree.radius_m + rng.uniform(1.5, 3.5);
         tree.tint = crown_tint(rng, style.climate);
         tree.variation = static_cast<std::uint32_t>(rng.index(1000000));
         scene.add(tree);

@@ -9,7 +9,7 @@ namespace {
 /// How far noise moves a crown's edge, as a share of its radius per standard deviation.
 constexpr float kRaggedness = 0.11F;
 /// How much lighter the side towards the sun is than the middle.
-constexpr float kDomeLight = 0.38F;
+constexpr float kDomeLight = 0.34F;
 /// How much light the tufts of leaves catch.
 constexpr float kTuftLight = 0.26F;
 /// Where the lowest leaves are, as a share of the height.
