@@ -17,6 +17,7 @@ void add_blocks_command(CLI::App& app, Action& action);
 void add_exemplar_command(CLI::App& app, Action& action);
 void add_subdivide_command(CLI::App& app, Action& action);
 void add_edit_command(CLI::App& app, Action& action);
+void add_synthesize_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);

@@ -167,9 +167,8 @@ class SiteBuilder {
   }
 
   void expand(const ExpandOperation& expand, const ScriptOperation& operation) {
-    auto site =
-        synthesis::expand(growth_.existing, polygon_in(frame_, *operation.region),
-                          copy_of(expand.copy), expand.options, script_.city->exemplar);
+    auto site = synthesis::expand(growth_.existing, polygon_in(frame_, *operation.region),
+                                  copy_of(expand.copy), expand.options, script_.city->exemplar);
     if (!site) refuse(operation.path, site.error().message);
     growth_.existing = std::move(site->existing);
     open_ends_ = std::move(site->open_ends);
@@ -185,8 +184,7 @@ class SiteBuilder {
         streets::exemplar_of(existing, parcels_, script_.city->exemplar);
     const bool is_one_expansion =
         script_.operations.size() == 1 && script_.operations.front().name == "expand";
-    site.growth.open_ends =
-        is_one_expansion ? open_ends_ : streets::open_ends_of(existing, known);
+    site.growth.open_ends = is_one_expansion ? open_ends_ : streets::open_ends_of(existing, known);
     site.existing_segments.resize(existing.streets.size());
     for (std::uint32_t c = 0; c < known.chains.size(); ++c) {
       for (const streets::StreetChain::Piece& piece : known.chains[c].pieces)

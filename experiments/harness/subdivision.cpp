@@ -5,18 +5,25 @@
 namespace plat::harness {
 namespace {
 
-/// The strategy as it divides one block: fitted, then with what the config asks for.
-parcels::AnyBlockSubdivider strategy_for(const StrategyConfig& strategy,
-                                         const parcels::ParcelStyle* style) {
-  const auto& menu = parcels::block_subdividers();
-  parcels::AnyBlockSubdivider base = menu.make(strategy.name, strategy.options);
-  if (style == nullptr || strategy.fit == Fit::kNone) return base;
-  OptionMap options = base.fitted(*style).options();
-  for (const auto& [key, value] : strategy.options) options.insert_or_assign(key, value);
-  return menu.make(strategy.name, options);
+/// The strategy as it divides one block: fitted, but for what the config asks for.
+ConfiguredSubdivider strategy_for(const StrategyConfig& strategy,
+                                  const parcels::ParcelStyle* style) {
+  const ConfiguredSubdivider base(strategy.name, strategy.options);
+  return style == nullptr || strategy.fit == Fit::kNone ? base : base.fitted(*style);
 }
 
 }  // namespace
+
+ConfiguredSubdivider::ConfiguredSubdivider(std::string_view name, OptionMap given)
+    : given_(std::move(given)), subdivider_(parcels::block_subdividers().make(name, given_)) {}
+
+ConfiguredSubdivider ConfiguredSubdivider::fitted(const parcels::ParcelStyle& style) const {
+  ConfiguredSubdivider out = *this;
+  OptionMap options = subdivider_.fitted(style).options();
+  for (const auto& [key, value] : given_) options.insert_or_assign(key, value);
+  out.subdivider_ = parcels::block_subdividers().make(subdivider_.name(), options);
+  return out;
+}
 
 std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks,
                                            const StrategyConfig& strategy,
@@ -41,7 +48,7 @@ std::vector<DividedBlock> subdivide_blocks(std::span<const blocks::Block> blocks
       progress.step();
       return out;
     }
-    const parcels::AnyBlockSubdivider subdivider = strategy_for(strategy, style);
+    const ConfiguredSubdivider subdivider = strategy_for(strategy, style);
     out.options = subdivider.options();
     Rng rng(out.seed);
     out.parcels = traces.empty() ? subdivider.subdivide(block, rng)

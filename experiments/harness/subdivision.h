@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "blocks/block.h"
@@ -14,6 +15,30 @@
 #include "parcels/parcel_measures.h"
 
 namespace plat::harness {
+
+/// A strategy of the menu whose given options win over those that a style implies.
+class ConfiguredSubdivider {
+ public:
+  /// @throws InputError for an unknown name, key or value
+  explicit ConfiguredSubdivider(std::string_view name, OptionMap given = {});
+
+  [[nodiscard]] Expected<std::vector<parcels::Parcel>> subdivide(const blocks::Block& block,
+                                                                 Rng& rng) const {
+    return subdivider_.subdivide(block, rng);
+  }
+  [[nodiscard]] Expected<std::vector<parcels::Parcel>> subdivide(
+      const blocks::Block& block, Rng& rng, parcels::SubdivisionTrace& trace) const {
+    return subdivider_.subdivide(block, rng, trace);
+  }
+  [[nodiscard]] ConfiguredSubdivider fitted(const parcels::ParcelStyle& style) const;
+  [[nodiscard]] std::string_view name() const { return subdivider_.name(); }
+  [[nodiscard]] OptionMap options() const { return subdivider_.options(); }
+
+ private:
+  OptionMap given_;
+  parcels::AnyBlockSubdivider subdivider_;
+};
+static_assert(parcels::TracedBlockSubdivider<ConfiguredSubdivider>);
 
 /// A block divided by one strategy.
 struct DividedBlock {

@@ -111,8 +111,8 @@ std::vector<Polygon> polygons_in(const ScriptFrame& frame, const ScriptRegion& r
     return {polygon};
   }
   return naming(frame.source, region.path, [&] {
-    const Layer layer = geodata::read_layer(*region.layer, {.frame = frame.frame,
-                                                            .kind = GeometryKind::kPolygon});
+    const Layer layer =
+        geodata::read_layer(*region.layer, {.frame = frame.frame, .kind = GeometryKind::kPolygon});
     std::vector<Polygon> out;
     for (const geodata::Feature& feature : layer.features) {
       for (const Polygon& shape : feature.polygons) {
@@ -133,16 +133,14 @@ Polygon polygon_in(const ScriptFrame& frame, const ScriptRegion& region) {
   }
   constexpr std::size_t kMaxVertices = 100000;
   auto admitted = admit_polygon(polygons.front(), kMaxVertices);
-  if (!admitted)
-    refuse(frame.source, region.path, "is no polygon: " + admitted.error().message);
+  if (!admitted) refuse(frame.source, region.path, "is no polygon: " + admitted.error().message);
   return *std::move(admitted);
 }
 
 ReadExample read_example(const ScriptSource& source, const std::string& script, Jobs jobs) {
   ReadExample out = naming(script, source.path, [&]() -> ReadExample {
     const ObservedStreets read = read_streets_of(source, jobs);
-    return {read.frame,
-            streets::exemplar_of(read.network, read.parcels, source.exemplar).points};
+    return {read.frame, streets::exemplar_of(read.network, read.parcels, source.exemplar).points};
   });
   Box box;
   for (const streets::IntersectionPoint& point : out.points) box.add(point.place);
@@ -165,13 +163,11 @@ ReadExample read_example(const ScriptSource& source, const std::string& script, 
 }
 
 ReadCity read_city_streets(const ScriptSource& source, const std::string& script, Jobs jobs) {
-  ObservedStreets read =
-      naming(script, source.path, [&] { return read_streets_of(source, jobs); });
+  ObservedStreets read = naming(script, source.path, [&] { return read_streets_of(source, jobs); });
   if (source.region) {
     const ScriptFrame frame = frame_of(script, read.frame, box_of(read.network.nodes));
     read.network = streets_inside(read.network, polygon_in(frame, *source.region));
-    if (read.network.streets.empty())
-      refuse(script, source.region->path, "no street lies in it");
+    if (read.network.streets.empty()) refuse(script, source.region->path, "no street lies in it");
   }
   return {read.frame, std::move(read.network), std::move(read.parcels)};
 }
