@@ -167,13 +167,16 @@ class SiteBuilder {
   }
 
   void expand(const ExpandOperation& expand, const ScriptOperation& operation) {
-    auto site = synthesis::expand(growth_.existing, polygon_in(frame_, *operation.region),
-                                  copy_of(expand.copy), expand.options, script_.city->exemplar);
-    if (!site) refuse(operation.path, site.error().message);
-    growth_.existing = std::move(site->existing);
-    open_ends_ = std::move(site->open_ends);
-    growth_.boundary = std::move(site->boundary);
-    add(std::move(site->points), expand.options.spacing);
+    synthesis::ExpansionOptions options = expand.options;
+    if (expand.copy.at) options.copy_place = synthesis::CopyPlace::kAsPlaced;
+    auto grown =
+        synthesis::expand(growth_.existing, parcels_, polygon_in(frame_, *operation.region),
+                          copy_of(expand.copy), options, script_.city->exemplar);
+    if (!grown) refuse(operation.path, grown.error().message);
+    growth_.existing = std::move(grown->site.existing);
+    open_ends_ = std::move(grown->site.open_ends);
+    growth_.boundary = std::move(grown->site.boundary);
+    add(std::move(grown->site.points), options.spacing);
   }
 
   /// What is known of the city's streets, which operations may have cut: points, levels, and the
