@@ -174,10 +174,10 @@ void add_synthesize_command(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->footer(
-      "Example:\n  plat synthesize docs/examples/synthesis/join.json --out joined.gpkg\n"
+      "Example:\n  plat synthesize docs/examples/synthesis/expand.json --out grown.gpkg\n"
       "The output is in the CRS of the script's city, else of its first example (UTM where that "
       "is\n"
-      "in degrees). A written city can be edited: plat edit --city joined.gpkg.\n"
+      "in degrees). A written city can be edited: plat edit --city grown.gpkg.\n"
       "Exit status: 0 done, 1 finished with failures listed in the layer, 2 bad input.");
   command->callback([args, &action] { action = [args] { return run(*args); }; });
 }

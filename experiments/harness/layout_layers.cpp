@@ -7,6 +7,7 @@
 #include "harness/build_info.h"
 #include "harness/city_layers.h"
 #include "parcels/parcel_measures.h"
+#include "streets/intersection_point_layer.h"
 
 namespace plat::harness {
 namespace {
@@ -19,6 +20,16 @@ using synthesis::Layout;
 using synthesis::LayoutBlock;
 
 std::int64_t number(std::size_t value) { return static_cast<std::int64_t>(value); }
+
+/// The points as they can be read again (plat exemplar), and whether a grown street reached each.
+Layer points_layer(const Layout& layout, const geodata::LocalFrame& frame) {
+  Layer layer = streets::intersection_point_layer(layout.points, frame);
+  layer.fields.push_back({"is_reached", FieldType::kInteger});
+  for (Feature& feature : layer.features) feature.attributes.emplace_back(std::int64_t{1});
+  for (const std::uint32_t point : layout.left_alone)
+    layer.features[point].attributes.back() = std::int64_t{0};
+  return layer;
+}
 
 Layer streets_layer(const Layout& layout, const geodata::LocalFrame& frame) {
   Layer layer = street_layer(layout.network, frame);
@@ -151,9 +162,9 @@ Layer origin_layer(const LayoutOrigin& origin, const geodata::LocalFrame& frame)
 
 std::vector<Layer> layout_layers(const Layout& layout, const geodata::LocalFrame& frame,
                                  const LayoutOrigin& origin, Jobs jobs) {
-  return {streets_layer(layout, frame), blocks_layer(layout, frame),
-          parcels_layer(layout, frame, jobs), failures_layer(layout, frame),
-          origin_layer(origin, frame)};
+  return {points_layer(layout, frame),   streets_layer(layout, frame),
+          blocks_layer(layout, frame),   parcels_layer(layout, frame, jobs),
+          failures_layer(layout, frame), origin_layer(origin, frame)};
 }
 
 }  // namespace plat::harness

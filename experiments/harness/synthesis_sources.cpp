@@ -11,6 +11,7 @@
 #include "geodata/dataset_catalogue.h"
 #include "harness/observed_layers.h"
 #include "harness/observed_streets.h"
+#include "streets/intersection_point_layer.h"
 #include "streets/network_cleaning.h"
 #include "streets/street_import.h"
 #include "streets/street_width.h"
@@ -139,6 +140,10 @@ Polygon polygon_in(const ScriptFrame& frame, const ScriptRegion& region) {
 
 ReadExample read_example(const ScriptSource& source, const std::string& script, Jobs jobs) {
   ReadExample out = naming(script, source.path, [&]() -> ReadExample {
+    if (source.points) {
+      streets::ReadPoints read = streets::read_intersection_points(*source.points);
+      return {read.frame, std::move(read.points)};
+    }
     const ObservedStreets read = read_streets_of(source, jobs);
     return {read.frame, streets::exemplar_of(read.network, read.parcels, source.exemplar).points};
   });

@@ -21,6 +21,7 @@ COMMANDS = {
     ("report",): ["dir", "report.html", "--worst"],
     ("figure",): ["names", "--list", "--out", "PLAT_DATA_DIR"],
     ("orthophoto",): ["--city", "--streets", "--parcels", "--footprints", "--water", "--window", "--pixel", "--seed", "--out"],
+    ("synthesize",): ["script", "--out", "--seed", "--jobs", "docs/synthesis_script.md"],
     ("search",): ["problem", "--method", "--set", "--k", "--json", "--out", "--relax"],
 }
 
