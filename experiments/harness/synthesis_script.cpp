@@ -83,7 +83,7 @@ template <class Options>
 Options options_of(const ScriptJson& json, std::string_view key) {
   const auto given = json.find(key);
   if (!given) return {};
-  return given->naming([&] { return from_option_map<Options>(key, given->options()); });
+  return from_option_map<Options>(given->where(), given->options());
 }
 
 streets::ExemplarOptions exemplar_options_of(const ScriptJson& json) {

@@ -279,7 +279,8 @@ class Documentation(CliTest):
         undivided = {p["feature"] for p, _ in read_layer(out, "failures") if p["stage"] == "parcels"}
         for block, contour in blocks.items():
             wanted = 0.0 if f"block {block}" in undivided else contour.area
-            self.assertAlmostEqual(areas[block] / contour.area, wanted / contour.area, places=6)
+            # The contour's own vertices may lie off the parcels by one and a half grid steps.
+            self.assertLess(abs(areas[block] - wanted), 0.0015 * contour.length)
         points = [p for p, _ in read_layer(out, "points")]
         self.assertGreater(sum(p["is_reached"] for p in points), 0.9 * len(points))
         grown = sum(1 for p, _ in read_layer(out, "streets") if not p["is_existing"])
@@ -291,7 +292,7 @@ class Documentation(CliTest):
         keys = set(re.findall(r'(?:find|needed)\("(\w+)"', source)) | set(re.findall(r'read\("(\w+)"', source))
         self.assertGreater(len(keys), 30)
         for key in keys:
-            self.assertIn(f"`{key}`", page)
+            self.assertRegex(page, rf'[`"]{key}[`"]')
 
 
 if __name__ == "__main__":

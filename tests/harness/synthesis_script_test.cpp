@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"/operations/0/weight", "1", "operations[0]: unknown key \"weight\""},
         Spoilt{"/operations/1/examples", "[{\"example\": \"grid\"}]",
                "operations[1].examples: must be two copies or more"},
-        Spoilt{"/operations/2/examples/0", "", "operations[2].examples: must be two copies"},
+        Spoilt{"/operations/2/examples", "[]", "operations[2].examples: must be two copies"},
         Spoilt{"/operations/2/weight", "1.5", "operations[2].weight: 1.5, allowed 0..1"},
         Spoilt{"/operations/2/weight", "\"acros\"", "operations[2].weight: no \"acros\""},
         Spoilt{"/operations/2/weight/to", "[0, 0]", "operations[2].weight: from and to are one"},
