@@ -67,13 +67,13 @@ def chord_statistics(stops, is_ring):
     return (*of(lengths), *of(turns))
 
 
-def draw_levels(axes, frame, column="hierarchy"):
-    """Lines by level, the main streets on top."""
+def draw_levels(axes, frame, thickness=1.0, column="hierarchy"):
+    """Lines by level, the main streets on top. `thickness` is of all widths: less for a whole city."""
     if frame.empty:
         raise FigureError("no street to draw")
     for level in sorted(set(frame[column]), reverse=True):
         colour, width = level_style(level)
-        lines(axes, frame[frame[column] == level], colour, width, zorder=10 - min(level, 9), capstyle="round")
+        lines(axes, frame[frame[column] == level], colour, thickness * width, zorder=10 - min(level, 9), capstyle="round")
 
 
 def level_handles(levels):
