@@ -23,6 +23,22 @@ constexpr std::size_t kTile = 256;
 /// Overviews halve the image until it is at most this wide and high: it then opens at once.
 constexpr std::size_t kOverviewSize = 512;
 
+/// Bytes of GDAL's block cache while a file is finished: its default, a share of the machine's
+/// memory, would fill with tiles that are read once.
+constexpr GIntBig kCacheBytes = 128 << 20;
+
+/// GDAL's cache is one for the process: made smaller for a while, never larger.
+class SmallCache {
+ public:
+  SmallCache() : before_(GDALGetCacheMax64()) { GDALSetCacheMax64(std::min(before_, kCacheBytes)); }
+  ~SmallCache() { GDALSetCacheMax64(before_); }
+  SmallCache(const SmallCache&) = delete;
+  SmallCache& operator=(const SmallCache&) = delete;
+
+ private:
+  GIntBig before_;
+};
+
 void expect_tif(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   if (ending != ".tif" && ending != ".tiff")
@@ -101,6 +117,7 @@ class RasterWriter::Target {
   void finish() {
     expects(seen_rows_ == grid_.height, "all rows were written");
     const QuietGdal quiet;
+    const SmallCache small_cache;
     const ScopedConfig two_threads("GDAL_NUM_THREADS", "2");
     std::vector<int> factors;
     for (std::size_t factor = 2; std::max(grid_.width, grid_.height) * 2 / factor > kOverviewSize;
