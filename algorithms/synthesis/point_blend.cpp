@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "core/failure.h"
 #include "core/polygon.h"
@@ -56,6 +57,36 @@ std::vector<Candidate> candidates_of(const Sets& sets, const std::array<PointQua
     }
   }
   return out;
+}
+
+/// Gives the places of the overlap one draw for each patch: the region nearer to one seed than to
+/// any other, seeds being every so many of the places.
+void draw_in_patches(std::vector<Candidate>& all, std::int64_t patch_places, PlaceIndex seeds,
+                     double cell_m, Rng& rng) {
+  if (patch_places == 1) return;
+  bool has_seed = false;
+  const double chance_01 = 1.0 / static_cast<double>(patch_places);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (!all[i].is_shared || rng.uniform_01() >= chance_01) continue;
+    seeds.add(all[i].place, i);
+    has_seed = true;
+  }
+  if (!has_seed) {
+    const double draw_01 = rng.uniform_01();
+    for (Candidate& one : all) one.draw_01 = draw_01;
+    return;
+  }
+  std::vector<double> draws_01(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::optional<std::pair<double, std::uint32_t>> nearest;
+    for (double radius_m = cell_m; !nearest; radius_m *= 2.0) {
+      seeds.for_each_nearer(all[i].place, radius_m, [&](std::uint32_t seed, double apart_m) {
+        if (!nearest || std::pair(apart_m, seed) < *nearest) nearest = {apart_m, seed};
+      });
+    }
+    draws_01[i] = all[nearest->second].draw_01;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].draw_01 = draws_01[i];
 }
 
 /// Places of both sets that correspond, nearest pairs first: each nearer than both sets' mean
@@ -211,6 +242,7 @@ PointSet blend_weighted(std::span<const IntersectionPoint> a, std::span<const In
   std::vector<PlaceGroup> groups;
   for (const Candidate& one : all) groups.push_back(one.group);
   const double cell_m = cell_for_m(groups, options.spacing);
+  draw_in_patches(all, options.patch_places, PlaceIndex(cell_m), cell_m, rng);
   pair_up(all, PlaceIndex(cell_m));
   if (options.positions == BlendPositions::kMorphed) morph(all);
   const std::vector<bool> taken = taken_of(all, options.spacing, PlaceIndex(cell_m));

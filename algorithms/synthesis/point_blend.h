@@ -40,12 +40,16 @@ struct BlendOptions {
   QuadtreeOptions quadtree{};
   Spacing spacing{};
   BlendPositions positions = BlendPositions::kThinned;
+  std::int64_t patch_places = 20;
   static constexpr auto fields() {
     return std::tuple{EnumField{"positions",
                                 &BlendOptions::positions,
                                 {EnumName{"thinned", BlendPositions::kThinned},
                                  EnumName{"morphed", BlendPositions::kMorphed}},
-                                "Where the points of a blend lie."}};
+                                "Where the points of a blend lie."},
+                      Field{"patch_places", &BlendOptions::patch_places, 1, 1000000,
+                            "Places that are taken from the same set together, about; 1: each by "
+                            "itself."}};
   }
 };
 
@@ -61,7 +65,7 @@ struct BlendOptions {
 /// linear in the weight;  4. in the overlap no more places than the weighted sum of both sets;  5.
 /// points of different sets keep the spacing;  6. the same stream gives the same points.
 /// @param weight  called with places of points: [0, 1]
-/// Complexity: O(n log n)
+/// Complexity: O(n log n) where places are of similar density
 /// Paper: [AVB08, Sec. 4.2, "blend"]
 /// Deviation: which points are taken is ours (ADR 0029)
 template <class Weight>

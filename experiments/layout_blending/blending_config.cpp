@@ -45,10 +45,20 @@ ExampleChoice read_example(ObjectReader& reader, std::string_view key, const std
   return out;
 }
 
-synthesis::BlendPositions read_positions(const json& name, const std::string& where) {
-  if (name == "thinned") return synthesis::BlendPositions::kThinned;
-  if (name == "morphed") return synthesis::BlendPositions::kMorphed;
-  throw InputError(where + ": must hold \"thinned\" or \"morphed\"");
+BlendWay read_way(const json& object, const std::string& where) {
+  ObjectReader reader(object, where);
+  BlendWay out;
+  out.name = reader.text("name", "");
+  if (out.name.empty()) throw InputError(where + ": \"name\" is missing");
+  const std::string positions = reader.text("positions", "thinned");
+  if (positions == "morphed") {
+    out.positions = synthesis::BlendPositions::kMorphed;
+  } else if (positions != "thinned") {
+    throw InputError(where + ".positions: must be \"thinned\" or \"morphed\"");
+  }
+  out.patch_places = reader.whole("patch_places", 20, 1, 1000000);
+  reader.expect_nothing_else();
+  return out;
 }
 
 }  // namespace
@@ -75,8 +85,8 @@ BlendingConfig parse_blending_config(const json& object, const std::string& sour
   if (const json* options = reader.find("grower_options"))
     out.grower_options = harness::read_options(*options, source + ": grower_options");
   static_cast<void>(streets::street_growers().make(out.grower, out.grower_options));
-  for (const json& name : list_at(reader, "positions", source))
-    out.positions.push_back(read_positions(name, source + ": positions"));
+  for (const json& way : list_at(reader, "ways", source))
+    out.ways.push_back(read_way(way, source + ": ways"));
   for (const json& weight : list_at(reader, "weights_01", source))
     out.weights_01.push_back(number_in(weight, source + ": weights_01", 0.0, 1.0));
   out.seeds = static_cast<int>(reader.whole("seeds", out.seeds, 1, 10000));

@@ -24,12 +24,19 @@ struct PairChoice {
   ExampleChoice irregular;
 };
 
+/// A way to choose and place points.
+struct BlendWay {
+  std::string name;
+  synthesis::BlendPositions positions = synthesis::BlendPositions::kThinned;
+  std::int64_t patch_places = 20;
+};
+
 struct BlendingConfig {
   std::vector<PairChoice> pairs;
   double window_m = 1200.0;
   std::string grower;
   OptionMap grower_options;
-  std::vector<synthesis::BlendPositions> positions;
+  std::vector<BlendWay> ways;
   std::vector<double> weights_01;
   int seeds = 20;
   int resamples = 2000;

@@ -24,7 +24,6 @@ namespace {
 using streets::IntersectionPoint;
 using streets::PassingStreet;
 using streets::StreetNetwork;
-using synthesis::BlendPositions;
 using synthesis::PointQuadtree;
 using synthesis::PointSet;
 using Values = std::vector<std::optional<double>>;
@@ -203,7 +202,7 @@ double shared_area_km2(const Pair& pair, double window_m) {
 
 struct Cell {
   std::size_t pair = 0;
-  BlendPositions positions{};
+  std::size_t way = 0;
   std::size_t weight = 0;
   int seed = 0;
 };
@@ -260,9 +259,9 @@ BlendingResult run_blending(const BlendingConfig& config, Jobs jobs) {
 
   std::vector<Cell> cells;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    for (const BlendPositions positions : config.positions) {
+    for (std::size_t way = 0; way < config.ways.size(); ++way) {
       for (std::size_t w = 0; w < config.weights_01.size(); ++w) {
-        for (int seed = 0; seed < config.seeds; ++seed) cells.push_back({p, positions, w, seed});
+        for (int seed = 0; seed < config.seeds; ++seed) cells.push_back({p, way, w, seed});
       }
     }
   }
@@ -275,15 +274,17 @@ BlendingResult run_blending(const BlendingConfig& config, Jobs jobs) {
     const Cell& cell = cells[c];
     const Pair& pair = pairs[cell.pair];
     BlendRow& row = out.rows[c];
-    row = {cell.pair, cell.positions, config.weights_01[cell.weight], cell.seed, "ok", {}};
+    row = {cell.pair, cell.way, config.weights_01[cell.weight], cell.seed, "ok", {}};
     const auto seed_of = [&](std::string_view what) {
-      // Without weight and positions: the same draws are looked at under all of them.
+      // Without weight and way: the same draws are looked at under all of them.
       return derive_seed(config.seed, {seed_key(what), static_cast<std::uint64_t>(cell.seed)});
     };
     Rng blend_rng(seed_of("blend"));
     const PointSet blended = synthesis::blend(pair.grid.points, pair.irregular.points,
                                               synthesis::ConstantWeight{row.weight_01},
-                                              {.positions = row.positions}, blend_rng);
+                                              {.positions = config.ways[cell.way].positions,
+                                               .patch_places = config.ways[cell.way].patch_places},
+                                              blend_rng);
     streets::GrowthSite site;
     site.points = shared_points(blended, pair);
     Rng growth_rng(seed_of("growth"));
@@ -301,7 +302,7 @@ BlendingResult run_blending(const BlendingConfig& config, Jobs jobs) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (cells[c].seed != 0 || out.rows[c].status != "ok") continue;
     out.networks.push_back(
-        {cells[c].pair, cells[c].positions, out.rows[c].weight_01, std::move(networks[c])});
+        {cells[c].pair, cells[c].way, out.rows[c].weight_01, std::move(networks[c])});
   }
   return out;
 }

@@ -25,7 +25,7 @@ const std::vector<Measure>& measures();
 /// A blend of one weight and seed with the network grown from it.
 struct BlendRow {
   std::size_t pair = 0;
-  synthesis::BlendPositions positions = synthesis::BlendPositions::kThinned;
+  std::size_t way = 0;
   double weight_01 = 0.0;
   int seed = 0;
   std::string status = "ok";                  ///< or the name of the grower's failure
@@ -42,14 +42,14 @@ struct ExampleRow {
 /// A network kept for the figure.
 struct KeptNetwork {
   std::size_t pair = 0;
-  synthesis::BlendPositions positions = synthesis::BlendPositions::kThinned;
+  std::size_t way = 0;
   double weight_01 = 0.0;
   streets::StreetNetwork network;
 };
 
 struct BlendingResult {
   std::vector<ExampleRow> examples;
-  std::vector<BlendRow> rows;         ///< by pair, positions, weight, seed
+  std::vector<BlendRow> rows;         ///< by pair, way, weight, seed
   std::vector<KeptNetwork> networks;  ///< of the first seed
 };
 

@@ -32,7 +32,7 @@ std::string values_text(const std::vector<std::optional<double>>& values) {
 /// The values of a measure: by weight, then by seed; none where the row has none.
 struct Series {
   std::size_t pair = 0;
-  synthesis::BlendPositions positions{};
+  std::size_t way = 0;
   std::size_t measure = 0;
   std::vector<std::vector<std::optional<double>>> by_weight;
 };
@@ -43,9 +43,9 @@ void for_each_series(const BlendingConfig& config, const BlendingResult& result,
   const auto seeds = static_cast<std::size_t>(config.seeds);
   std::size_t first = 0;
   for (std::size_t p = 0; p < config.pairs.size(); ++p) {
-    for (const synthesis::BlendPositions positions : config.positions) {
+    for (std::size_t way = 0; way < config.ways.size(); ++way) {
       for (std::size_t m = 0; m < measures().size(); ++m) {
-        Series series{p, positions, m, {}};
+        Series series{p, way, m, {}};
         for (std::size_t w = 0; w < weights; ++w) {
           std::vector<std::optional<double>> values;
           for (std::size_t s = 0; s < seeds; ++s)
@@ -154,16 +154,12 @@ std::optional<double> deviation_of(const Series& series) {
 
 }  // namespace
 
-std::string positions_name(synthesis::BlendPositions positions) {
-  return positions == synthesis::BlendPositions::kThinned ? "thinned" : "morphed";
-}
-
 std::string blends_csv(const BlendingConfig& config, const BlendingResult& result) {
-  CsvTable table("pair,positions,weight_01,seed,status" + header_of_measures());
+  CsvTable table("pair,way,weight_01,seed,status" + header_of_measures());
   for (const BlendRow& row : result.rows) {
     table.add_raw_row(fmt::format("{},{},{},{},{}{}", CsvTable::quoted(config.pairs[row.pair].name),
-                                  positions_name(row.positions), row.weight_01, row.seed,
-                                  row.status, values_text(row.values)));
+                                  config.ways[row.way].name, row.weight_01, row.seed, row.status,
+                                  values_text(row.values)));
   }
   return table.text();
 }
@@ -180,13 +176,13 @@ std::string examples_csv(const BlendingConfig& config, const BlendingResult& res
 }
 
 std::string weights_csv(const BlendingConfig& config, const BlendingResult& result) {
-  CsvTable table("pair,positions,measure,unit,weight_01,mean,low,high,seeds");
+  CsvTable table("pair,way,measure,unit,weight_01,mean,low,high,seeds");
   for_each_series(config, result, [&](const Series& series) {
     for (std::size_t w = 0; w < config.weights_01.size(); ++w) {
       const std::vector<double> known = known_of(series.by_weight[w]);
       std::optional<statistics::Interval> interval;
       if (!known.empty()) interval = statistics::percentile_interval(known, kLevel_01);
-      table.add_row(config.pairs[series.pair].name, positions_name(series.positions),
+      table.add_row(config.pairs[series.pair].name, config.ways[series.way].name,
                     measures()[series.measure].name, measures()[series.measure].unit,
                     config.weights_01[w], mean_of(series.by_weight[w]),
                     interval ? std::optional(interval->low) : std::nullopt,
@@ -198,7 +194,7 @@ std::string weights_csv(const BlendingConfig& config, const BlendingResult& resu
 
 std::string trends_csv(const BlendingConfig& config, const BlendingResult& result) {
   CsvTable table(
-      "pair,positions,of,measure,unit,grid_observed,irregular_observed,first,last,deviation,"
+      "pair,way,of,measure,unit,grid_observed,irregular_observed,first,last,deviation,"
       "spearman,ci_low,ci_high,between_share_01,farthest_out");
   for_each_series(config, result, [&](const Series& series) {
     const Measure& measure = measures()[series.measure];
@@ -208,7 +204,7 @@ std::string trends_csv(const BlendingConfig& config, const BlendingResult& resul
       if (row.pair == series.pair)
         observed[row.side == "grid" ? 0 : 1] = row.values[series.measure];
     }
-    table.add_row(config.pairs[series.pair].name, positions_name(series.positions),
+    table.add_row(config.pairs[series.pair].name, config.ways[series.way].name,
                   measure.is_of_points ? "points" : "network", measure.name, measure.unit,
                   observed[0], observed[1], trend.first, trend.last, deviation_of(series),
                   trend.spearman,
@@ -220,13 +216,13 @@ std::string trends_csv(const BlendingConfig& config, const BlendingResult& resul
 }
 
 std::string networks_csv(const BlendingConfig& config, const BlendingResult& result) {
-  CsvTable table("pair,positions,weight_01,width_m,line");
+  CsvTable table("pair,way,weight_01,width_m,line");
   for (const KeptNetwork& kept : result.networks) {
     for (const streets::Street& street : kept.network.streets) {
       std::string line;
       for (const Point p : street.line)
         line += fmt::format("{}{:.2f} {:.2f}", line.empty() ? "" : ", ", p.x, p.y);
-      table.add_row(config.pairs[kept.pair].name, positions_name(kept.positions), kept.weight_01,
+      table.add_row(config.pairs[kept.pair].name, config.ways[kept.way].name, kept.weight_01,
                     street.width_m, "LINESTRING (" + line + ")");
     }
   }

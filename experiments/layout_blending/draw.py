@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import pandas
 
-COLOURS = {"thinned": "#1b6ca8", "morphed": "#d1495b"}
+COLOURS = ["#1b6ca8", "#2a9d5c", "#d1495b", "#8a5ab5"]
 
 
 def draw_curves(out, pair):
@@ -25,9 +25,9 @@ def draw_curves(out, pair):
     rows = -(-len(measures) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(3.6 * columns, 2.6 * rows), squeeze=False)
     for axis, measure in zip(axes.flat, measures):
-        for positions, part in weights[weights["measure"] == measure].groupby("positions", sort=False):
-            axis.plot(part["weight_01"], part["mean"], color=COLOURS[positions], label=positions)
-            axis.fill_between(part["weight_01"], part["low"], part["high"], color=COLOURS[positions], alpha=0.15, lw=0)
+        for colour, (way, part) in zip(COLOURS, weights[weights["measure"] == measure].groupby("way", sort=False)):
+            axis.plot(part["weight_01"], part["mean"], color=colour, label=way)
+            axis.fill_between(part["weight_01"], part["low"], part["high"], color=colour, alpha=0.15, lw=0)
         row = trends[trends["measure"] == measure].iloc[0]
         axis.plot([0, 1], [row["grid_observed"], row["irregular_observed"]], "k+", label="as observed")
         unit = "" if pandas.isna(row["unit"]) else f" [{row['unit']}]"
@@ -50,10 +50,10 @@ def draw_trends(out):
     for axis, pair in zip(axes.flat, pairs):
         part = trends[trends["pair"] == pair]
         measures = list(dict.fromkeys(part["measure"]))
-        for shift, (positions, some) in zip((-0.15, 0.15), part.groupby("positions", sort=False)):
-            y = [measures.index(m) + shift for m in some["measure"]]
-            axis.hlines(y, some["ci_low"], some["ci_high"], color=COLOURS[positions])
-            axis.plot(some["spearman"], y, "o", ms=4, color=COLOURS[positions], label=positions)
+        for i, (colour, (way, some)) in enumerate(zip(COLOURS, part.groupby("way", sort=False))):
+            y = [measures.index(m) + 0.2 * (i - 1) for m in some["measure"]]
+            axis.hlines(y, some["ci_low"], some["ci_high"], color=colour)
+            axis.plot(some["spearman"], y, "o", ms=3.5, color=colour, label=way)
         axis.axvline(0, color="grey", lw=0.6)
         axis.set_xlim(-1.05, 1.05)
         axis.set_yticks(range(len(measures)), [m.replace("_", " ") for m in measures], fontsize=8)
@@ -70,11 +70,11 @@ def draw_networks(out):
     """The networks of the first seed."""
     networks = pandas.read_csv(out / "networks.csv")
     kept = [w for w in sorted(set(networks["weight_01"])) if round(w * 10) % 2 == 0]
-    kinds = list(dict.fromkeys(zip(networks["pair"], networks["positions"])))
+    kinds = list(dict.fromkeys(zip(networks["pair"], networks["way"])))
     figure, axes = plt.subplots(len(kinds), len(kept), figsize=(2.6 * len(kept), 2.7 * len(kinds)), squeeze=False)
-    for row, (pair, positions) in zip(axes, kinds):
+    for row, (pair, way) in zip(axes, kinds):
         for axis, weight in zip(row, kept):
-            chosen = networks[(networks["pair"] == pair) & (networks["positions"] == positions)]
+            chosen = networks[(networks["pair"] == pair) & (networks["way"] == way)]
             for street in chosen[chosen["weight_01"] == weight].itertuples():
                 text = street.line[len("LINESTRING ("):-1]
                 x, y = zip(*[map(float, p.split()) for p in text.split(", ")])
@@ -82,7 +82,7 @@ def draw_networks(out):
             axis.set_aspect("equal")
             axis.axis("off")
             axis.set_title(f"w = {weight:g}", fontsize=8)
-        row[0].text(-0.02, 0.5, f"{pair.replace('_', ' ')}\n{positions}", transform=row[0].transAxes, rotation=90, ha="right",
+        row[0].text(-0.02, 0.5, f"{pair.replace('_', ' ')}\n{way}", transform=row[0].transAxes, rotation=90, ha="right",
                     va="center", fontsize=7)
     figure.tight_layout()
     figure.savefig(out / "networks.png", dpi=110)

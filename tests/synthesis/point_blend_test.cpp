@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -272,7 +273,7 @@ TEST(Blend, SharesOfTheSetsFollowTheWeight) {
   PointSet first = scattered_points(rng, 1500, {0, 0}, {1000, 1000}, kGridStyle);
   PointSet second = scattered_points(rng, 1500, {0, 0}, {1000, 1000}, kWildStyle);
   for (streets::IntersectionPoint& point : first) point.a.connections = 1;
-  const BlendOptions options{.spacing = {.share_01 = 0.0, .min_m = 0.0}};
+  const BlendOptions options{.spacing = {.share_01 = 0.0, .min_m = 0.0}, .patch_places = 1};
   const PointSet points = blend(first, second, RampWeight{{0, 0}, {1000, 0}}, options, rng);
   for (int strip = 0; strip < 5; ++strip) {
     double of_first = 0.0;
@@ -295,6 +296,39 @@ TEST(Blend, FullWeightGoesBeforePointsOutsideTheOverlap) {
   for (const streets::IntersectionPoint& point : west) {
     EXPECT_EQ(std::ranges::count(points, point), 1);
   }
+}
+
+TEST(Blend, PatchesAreTakenFromOneSetTogether) {
+  const PointSet grid = grid_points(40, 40, 100.0, {}, kGridStyle);
+  PointSet shifted = grid;
+  for (streets::IntersectionPoint& point : shifted) {
+    point.a.connections = 1;
+    const bool is_inner =
+        point.place.x > 0 && point.place.x < 3900 && point.place.y > 0 && point.place.y < 3900;
+    if (is_inner) point.place = point.place + Point{10, 5};
+  }
+  // How often neighbours in a row are of one set.
+  const auto agreement = [&](std::int64_t patch_places) {
+    Rng rng(3);
+    const PointSet points =
+        blend(grid, shifted, ConstantWeight{0.5}, {.patch_places = patch_places}, rng);
+    EXPECT_EQ(points.size(), 1600u);
+    std::map<std::pair<double, double>, bool> is_first;
+    for (const auto& p : points) {
+      is_first[{std::floor(p.place.x / 100.0), std::floor(p.place.y / 100.0)}] =
+          p.a.connections == 2;
+    }
+    double same = 0.0;
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 39; ++x) {
+        same += is_first.at({1.0 * x, 1.0 * y}) == is_first.at({x + 1.0, 1.0 * y}) ? 1.0 : 0.0;
+      }
+    }
+    return same / (39.0 * 40.0);
+  };
+  EXPECT_NEAR(agreement(1), 0.5, 0.06);
+  EXPECT_GT(agreement(50), 0.8);
+  EXPECT_GT(agreement(50), agreement(10));
 }
 
 TEST(Blend, MorphedPairsLieOnTheWay) {
