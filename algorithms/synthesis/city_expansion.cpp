@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,7 @@ namespace {
 
 using streets::IntersectionPoint;
 using streets::OpenEnd;
+using streets::PassingStreet;
 using streets::StreetNetwork;
 
 constexpr std::size_t kMaxRegionVertices = 100000;
@@ -84,7 +86,9 @@ class Clearance {
 
   [[nodiscard]] bool admits(Point place, double mean_distance_m) const {
     if (locate(region_, place) != Side::kInside) return false;
-    const double needed_m = share_01_ * mean_distance_m;
+    return is_clear(place, share_01_ * mean_distance_m);
+  }
+  [[nodiscard]] bool is_clear(Point place, double needed_m) const {
     const auto nearest = index_.nearest(place, needed_m, [](std::uint32_t) { return true; });
     return !nearest || nearest->distance_m >= needed_m;
   }
@@ -148,6 +152,45 @@ std::vector<OpenEnd> ends_within(std::vector<OpenEnd> ends, const StreetNetwork&
   return ends;
 }
 
+/// Variance of a uniform distribution, in squares of its width: what is left open where two fabrics
+/// meet that know nothing of each other, by how much of a block the next crossing is nearer or
+/// farther, and to which side of straight on it lies.
+constexpr double kUniformVariance = 1.0 / 12.0;
+
+void loosen(PassingStreet& street, double mean_distance_m) {
+  street.distance_variance_m2 =
+      std::max(street.distance_variance_m2, kUniformVariance * mean_distance_m * mean_distance_m);
+  street.angle_variance_rad2 = std::max(street.angle_variance_rad2, kUniformVariance);
+}
+
+/// Lets the outermost new points and the open ends find each other: their streets' distances and
+/// turns may vary as where unrelated fabrics meet, and an end takes, of the levels of the new point
+/// next to it, the one nearest to its own.
+void loosen_seam(streets::GrowthSite& site, const Clearance& clearance, double clearance_share_01) {
+  std::vector<const IntersectionPoint*> outermost;
+  for (IntersectionPoint& point : site.points) {
+    const double mean_m = mean_distance_m(point);
+    if (clearance.is_clear(point.place, (clearance_share_01 + 1.0) * mean_m)) continue;
+    loosen(point.a, mean_m);
+    if (point.b) loosen(*point.b, mean_m);
+    outermost.push_back(&point);
+  }
+  for (OpenEnd& end : site.open_ends) {
+    const Point place = site.existing.nodes[end.node];
+    const auto nearest = std::ranges::min_element(outermost, {}, [&](const IntersectionPoint* p) {
+      return squared_length(p->place - place);
+    });
+    if (nearest == outermost.end()) continue;
+    const double mean_m = mean_distance_m(**nearest);
+    end.street.distance_mean_m = (clearance_share_01 + 0.5) * mean_m;
+    loosen(end.street, mean_m);
+    const std::vector<PassingStreet> known = streets::streets_of(**nearest);
+    end.street.hierarchy = std::ranges::min_element(known, {}, [&](const PassingStreet& street) {
+                             return std::abs(street.hierarchy - end.street.hierarchy);
+                           })->hierarchy;
+  }
+}
+
 }  // namespace
 
 Expected<Expansion> expand(const StreetNetwork& existing, std::span<const Polygon> parcels,
@@ -169,6 +212,7 @@ Expected<Expansion> expand(const StreetNetwork& existing, std::span<const Polygo
   out.copies = copies.size();
   out.site.points = join(copies, options.spacing);
   out.site.existing = std::move(cut.network);
+  loosen_seam(out.site, clearance, options.clearance_share_01);
   return out;
 }
 

@@ -54,18 +54,23 @@ struct Expansion {
 /// within reach of it are open ends. Copies of the example, as it lies, are laid out in rows and
 /// columns of its oriented box until the region is covered; where copies meet, the spacing holds
 /// and the one nearer to the first copy stays (point_join.h). Points outside the region, or too
-/// near to an existing street, are left out. A box without width is as wide as the mean distance to
-/// the next intersection.
+/// near to an existing street, are left out. Along the seam, the variances of distances and turns
+/// of new points and open ends are at least those of unrelated fabrics, a uniform distribution over
+/// one mean distance to each side, and an open end takes of the levels of the new point next to it
+/// the one nearest to its own: where nothing is loosened, streets of the two do not find each
+/// other. A box without width is as wide as the mean distance to the next intersection.
 ///
 /// Guarantees: 1. points lie inside the region;  2. every point keeps its clearance from existing
 /// streets;  3. streets that do not enter the region are unchanged;  4. open ends lie within reach
 /// of the region, those of cut streets included;  5. `boundary` is the region, widened by the
-/// reach;  6. an example larger than the region is used once, one that fits is not stretched.
-/// Pre: every existing street has a width (street_width.h).
+/// reach;  6. an example larger than the region is used once, one that fits is not stretched;  7.
+/// no variance is lowered, and points farther from the streets than a mean distance and the
+/// clearance have the example's attributes. Pre: every existing street has a width
+/// (street_width.h).
 /// @param parcels  of the city, for the attributes of `of_existing`
 /// @returns Failure for a region that is not a simple polygon
 /// Paper: [AVB08, Sec. 4.2, "expand", and Fig. 9]
-/// Deviation: copies in rows and columns, and clearance, are ours (ADR 0029)
+/// Deviation: copies in rows and columns, clearance and the seam are ours (ADR 0029)
 Expected<Expansion> expand(const streets::StreetNetwork& existing, std::span<const Polygon> parcels,
                            const Polygon& region,
                            std::span<const streets::IntersectionPoint> example,

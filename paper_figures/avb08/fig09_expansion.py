@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 from figure import make  # noqa: E402
-from drawing import caption, fill, letter, lines, open_map, sheet  # noqa: E402
+from drawing import caption, letter, lines, open_map, sheet  # noqa: E402
 from layouts import Network, ends_of, example, existing, grown, ks_distance, synthesized, window_region  # noqa: E402
 from exemplars import Exemplar  # noqa: E402
 from places import Window  # noqa: E402
@@ -56,8 +56,6 @@ def draw_city(axes, layout, new):
     axes.set_ylim(CITY.south, CITY.north)
     lines(axes, existing(layout["streets"]), "#555555", 0.9)
     if new:
-        fill(axes, layout["parcels"][~layout["parcels"]["block_id"].isin(
-            layout["blocks"].loc[layout["blocks"]["is_existing"].astype(bool), "block_id"])], "#f4efe4", "#bbbbbb", 0.25)
         lines(axes, grown(layout["streets"]), "#b2182b", 1.0)
         axes.scatter(layout["points"].geometry.x, layout["points"].geometry.y, s=4, color="#1f4e9c", zorder=5)
 
@@ -76,7 +74,7 @@ def draw(figure):
     letter(middle, "middle", "filled with points of a grid")
     draw_city(right, layouts["irregular"], True)
     letter(right, "right", "filled with points of an irregular city")
-    caption(picture, figure, "Red: grown streets. Blue: attributed intersection points. Parcels of the new blocks are drawn, too.")
+    caption(picture, figure, "Red: grown streets. Blue: attributed intersection points.")
     figure.save(picture)
 
     networks = {}

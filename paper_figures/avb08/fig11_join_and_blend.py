@@ -12,7 +12,7 @@ from drawing import caption, letter, lines, open_map, sheet  # noqa: E402
 from layouts import (Network, attribute_means, differing, example, existing, grown, synthesized,  # noqa: E402
                      window_region)
 from places import Window  # noqa: E402
-from shapely.geometry import Polygon  # noqa: E402
+from shapely.geometry import Polygon, box  # noqa: E402
 
 IRREGULAR = Window("cambridge_ma", 230200.0, 902600.0, 231400.0, 903800.0, "bent streets that end, blocks of all sizes")
 GRID = Window("campo_grande_br", 754000.0, 7739600.0, 755200.0, 7740800.0, "a grid from side to side")
@@ -53,15 +53,19 @@ def middle_of(streets):
     return (ends.min(axis=0) + ends.max(axis=0)) / 2
 
 
-def draw_layout(axes, layout, shape, title, key):
+def square(middle, place):
+    return box(*(middle + place - HALF_M), *(middle + place + HALF_M))
+
+
+def draw_layout(axes, layout, of_grid, title, key):
     streets = layout["streets"]
     low_x, low_y, high_x, high_y = streets.total_bounds
     open_map(axes, [low_x - 50, low_y - 50, high_x + 50, high_y + 50])
     lines(axes, existing(streets), RED, 1.0)
     new = grown(streets)
-    is_between = new.geometry.centroid.within(shape)
-    lines(axes, new[~is_between], BLUE, 1.0)
-    lines(axes, new[is_between], VIOLET, 1.0)
+    is_grid = new.geometry.centroid.within(of_grid)
+    lines(axes, new[is_grid], BLUE, 1.0)
+    lines(axes, new[~is_grid], VIOLET, 1.0)
     letter(axes, key, title)
 
 
@@ -77,7 +81,8 @@ def draw(figure):
     for axes, (key, position) in zip(panels[0], POSITIONS.items()):
         middle = middle_of(existing(layouts[key]["streets"]))
         shapes[key] = Polygon([(middle[0] + x, middle[1] + y) for x, y in position["between"]])
-        draw_layout(axes, layouts[key], shapes[key], position["title"], "left" if key == "first" else "right")
+        draw_layout(axes, layouts[key], square(middle, numpy.array(position["grid"])), position["title"],
+                    "left" if key == "first" else "right")
     caption(picture, figure, "Red: the city that stays. Blue: streets grown from the grid's points. Violet: the blend between.")
     figure.save(picture)
 

@@ -128,8 +128,31 @@ TEST(Expand, AsPlacedLeavesTheExampleWhereItLies) {
   const PointSet example = grid_points(9, 9, 50.0, {310, 330});
   const auto expansion = expand({}, {}, kPark, example, {.copy_place = CopyPlace::kAsPlaced});
   std::size_t kept = 0;
-  for (const auto& point : expansion->site.points) kept += std::ranges::count(example, point);
+  for (const auto& point : expansion->site.points) {
+    kept += std::ranges::count(example, point.place, &streets::IntersectionPoint::place);
+  }
   EXPECT_EQ(kept, 64u);
+}
+
+TEST(Expand, LoosensTheSeamAndOnlyTheSeam) {
+  const streets::StreetNetwork city = city_with_park(10, 3, 7);
+  const testing::MadeStyle style{.distance_m = 40.0, .hierarchy = 3};
+  const auto expansion = expand(city, {}, kPark, grid_points(9, 9, 40.0, {}, style));
+  ASSERT_TRUE(expansion.has_value());
+  int loose = 0;
+  int tight = 0;
+  for (const streets::IntersectionPoint& point : expansion->site.points) {
+    const bool is_seam = boundary_distance_m(kPark, point.place) < 1.5 * 40.0;
+    EXPECT_DOUBLE_EQ(point.a.distance_variance_m2, is_seam ? 40.0 * 40.0 / 12.0 : 0.4);
+    EXPECT_DOUBLE_EQ(point.b->angle_variance_rad2, is_seam ? 1.0 / 12.0 : 0.0);
+    (is_seam ? loose : tight) += 1;
+  }
+  EXPECT_GT(loose, 10);
+  EXPECT_GT(tight, 10);
+  for (const streets::OpenEnd& end : expansion->site.open_ends) {
+    EXPECT_EQ(end.street.hierarchy, 3) << "of 3 and 4, the nearest to the city's 0 to 2";
+    EXPECT_DOUBLE_EQ(end.street.distance_mean_m, 40.0);
+  }
 }
 
 TEST(Expand, RefusesARegionThatIsNoPolygon) {
