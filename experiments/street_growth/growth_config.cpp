@@ -53,7 +53,7 @@ std::vector<Variant> read_strategies(ObjectReader& reader, const Menu& menu,
   std::vector<Variant> out;
   const json* strategies = reader.find("strategies");
   if (strategies != nullptr && *strategies == "all") {
-    for (const std::string& name : menu.names()) out.push_back({name, name, {}, {}, false});
+    for (const std::string& name : menu.names()) out.push_back({name, name, {}, {}});
     return out;
   }
   for (const json& object : list_at(reader, "strategies", source)) {
@@ -83,6 +83,7 @@ Variant read_ablation(const json& object, const Variant& reference, const std::s
   ObjectReader reader(object, where);
   Variant out = reference;
   out.is_ablation = true;
+  out.is_mapped = false;
   out.label = reader.text("label", "");
   for (const auto& [key, value] : options_at(reader, where))
     out.options.insert_or_assign(key, value);
@@ -104,6 +105,18 @@ void expect_usable(const std::vector<Variant>& variants, const Menu& menu,
           fmt::format("{}: label \"{}\" is empty or comes twice", source, variant.label));
     harness::naming(source + ", " + variant.label,
                     [&] { static_cast<void>(menu.make(variant.strategy, variant.options)); });
+  }
+}
+
+void read_maps(ObjectReader& reader, std::vector<Variant>& variants, const std::string& source) {
+  const json* maps = reader.find("maps");
+  if (maps == nullptr) return;
+  for (const json& label : *maps) {
+    const auto found = std::ranges::find_if(
+        variants, [&](const Variant& v) { return label.is_string() && label == v.label; });
+    if (found == variants.end())
+      throw InputError(fmt::format("{}: maps: {} is no label", source, label.dump()));
+    found->is_mapped = true;
   }
 }
 
@@ -138,6 +151,7 @@ GrowthConfig parse_growth_config(const json& object, const std::string& source, 
       out.variants.push_back(read_ablation(ablation, whole, source));
   }
   expect_usable(out.variants, menu, source);
+  read_maps(reader, out.variants, source);
   out.seeds = static_cast<int>(reader.whole("seeds", out.seeds, 1, 10000));
   out.ablation_seeds =
       static_cast<int>(reader.whole("ablation_seeds", out.ablation_seeds, 1, 10000));

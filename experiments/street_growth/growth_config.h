@@ -29,6 +29,7 @@ struct Variant {
   OptionMap options;
   std::vector<Attribute> flattened;
   bool is_ablation = false;
+  bool is_mapped = true;  ///< whether a layer of its edges is written
 };
 
 struct GrowthConfig {
@@ -50,7 +51,8 @@ struct GrowthConfig {
 };
 
 /// From a JSON object; `source` names it in messages. "strategies" is "all" or a list of
-/// {label, name, options}; "ablations" are of the reference, {label, options, flatten}.
+/// {label, name, options}; "ablations" are of the reference, {label, options, flatten}; "maps" are
+/// labels of ablations that are mapped, as all strategies are.
 /// @throws InputError for an unknown key, data set, strategy, option or attribute, a wrong type, a
 ///         value out of range, a label that comes twice: before anything runs
 GrowthConfig parse_growth_config(const nlohmann::json& json, const std::string& source,

@@ -79,6 +79,7 @@ void write_maps(const GrowthConfig& config, const CityResult& city,
                 const std::filesystem::path& out) {
   std::vector<geodata::Layer> layers;
   for (const Variant& variant : config.variants) {
+    if (!variant.is_mapped) continue;
     geodata::Layer layer = edge_map(*city.city, variant, config);
     if (!layer.features.empty()) layers.push_back(std::move(layer));
   }

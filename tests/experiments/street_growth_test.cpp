@@ -151,6 +151,12 @@ TEST(GrowthConfig, HasEveryStrategyAndTheReferenceWithSomethingTakenAway) {
   EXPECT_EQ(ablation.strategy, "nearest");
   EXPECT_EQ(ablation.flattened, std::vector{Attribute::kAngle});
   EXPECT_TRUE(ablation.is_ablation);
+  EXPECT_FALSE(ablation.is_mapped);
+  EXPECT_TRUE(read.variants[read.reference].is_mapped);
+  nlohmann::json mapped = config();
+  mapped["maps"] = {"no angle"};
+  EXPECT_TRUE(
+      parse_growth_config(mapped, "c.json", streets::street_growers()).variants.back().is_mapped);
 }
 
 TEST(GrowthConfig, RefusesWhatWouldOnlyBeFoundLater) {
@@ -166,6 +172,7 @@ TEST(GrowthConfig, RefusesWhatWouldOnlyBeFoundLater) {
   expect_refused(with("ablations", {{{"label", "nearest"}}}), "twice");
   expect_refused(with("ablations", {{{"label", "x"}, {"options", {{"neighbours", 0}}}}}), "1..256");
   expect_refused(with("seeds", 0), "seeds");
+  expect_refused(with("maps", {"no angel"}), "no angel");
   expect_refused(with("cities", {{{"dataset", "cambridge_ma"}, {"window", {1, 2, 3}}}}), "window");
 }
 
