@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/failure.h"
 #include "core/working_grid.h"
 #include "imagery/contour_chains_internal.h"
+#include "parcels/contour_simplification.h"
 
 namespace plat::imagery::detail {
 namespace {
@@ -32,6 +34,19 @@ Point exact_axis(const ParcelShape& shape) {
     }
   }
   return best;
+}
+
+/// From the vertex farthest from the middle, which is none to leave out.
+Ring simplified(Ring ring, double tolerance_m) {
+  const Point middle = centroid({ring, {}});
+  const auto farthest = std::max_element(ring.begin(), ring.end(), [&](Point a, Point b) {
+    return squared_length(a - middle) < squared_length(b - middle);
+  });
+  std::rotate(ring.begin(), farthest, ring.end());
+  blocks::Block block;
+  block.edges.emplace_back(ring.size());
+  block.contour.outer = std::move(ring);
+  return drop_collinear(parcels::simplify_contour(block, tolerance_m).polygon.outer);
 }
 
 std::size_t next(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
@@ -119,9 +134,11 @@ bool set_lines(std::vector<ChainVertex>& chain, double inward, double lean) {
 
 }  // namespace
 
-ContourProfile profile_of(const ParcelShape& shape, ScanAxis axis, Symmetry symmetry) {
+ContourProfile profile_of(const ParcelShape& shape, ScanAxis axis, Symmetry symmetry,
+                          double simplified_m) {
   ContourProfile profile;
   profile.world = drop_collinear(shape.polygon.outer);
+  if (simplified_m > 0.0) profile.world = simplified(profile.world, simplified_m);
   expects(profile.world.size() >= 3, "a parcel has an area");
   // Turned and mirrored frames measure against the axis.
   const Point main = exact_axis(shape);

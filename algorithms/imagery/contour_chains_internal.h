@@ -15,7 +15,9 @@ struct ContourProfile {
   Ring ring;
   Ring world;
 };
-ContourProfile profile_of(const ParcelShape& shape, ScanAxis axis, Symmetry symmetry);
+/// @param simplified_m  vertices nearer than this to the contour without them are left out
+ContourProfile profile_of(const ParcelShape& shape, ScanAxis axis, Symmetry symmetry,
+                          double simplified_m = 0.0);
 
 /// Perpendicular edges at the ends only, one way there and one way back.
 bool is_monotone(const ContourProfile& profile);

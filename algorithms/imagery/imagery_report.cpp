@@ -154,7 +154,8 @@ geodata::Layer imagery_layer(const geodata::LocalFrame& frame, std::span<const P
     layer.fields.push_back({name, FieldType::kReal});
   for (const char* name : {"is_target_monotone", "is_source_monotone"})
     layer.fields.push_back({name, FieldType::kInteger});
-  for (const char* name : {"stretch_median", "stretch_max", "area_ratio", "outside_01"})
+  for (const char* name :
+       {"stretch_median", "stretch_max", "area_ratio", "outside_01", "simplified_m"})
     layer.fields.push_back({name, FieldType::kReal});
   layer.fields.push_back({"uses", FieldType::kInteger});
   layer.fields.push_back({"repeat_m", FieldType::kReal});
@@ -180,6 +181,7 @@ geodata::Layer imagery_layer(const geodata::LocalFrame& frame, std::span<const P
                           row.stretch_max,
                           row.area_ratio,
                           row.outside_01,
+                          image.grid.simplified_m,
                           whole(row.uses),
                           row.repeat_m ? geodata::Attribute(*row.repeat_m) : geodata::Attribute()};
     layer.features.push_back(std::move(feature));

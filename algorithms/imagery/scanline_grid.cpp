@@ -102,9 +102,14 @@ struct Profiles {
   ContourProfile source;
   ContourProfile target;
 
-  Profiles(const Pair& pair, ScanAxis axis)
-      : source(detail::profile_of(pair.source, axis, pair.symmetry)),
-        target(detail::profile_of(pair.target, axis, Symmetry::kKept)) {}
+  Profiles(const Pair& pair, ScanAxis axis, double simplified_m = 0.0)
+      : source(detail::profile_of(pair.source, axis, pair.symmetry,
+                                  tolerance(pair.source, simplified_m))),
+        target(detail::profile_of(pair.target, axis, Symmetry::kKept,
+                                  tolerance(pair.target, simplified_m))) {}
+  static double tolerance(const ParcelShape& shape, double wanted_m) {
+    return std::min(wanted_m, kMostSimplified_01 * shape.box.width_m);
+  }
   [[nodiscard]] bool are_monotone() const {
     return detail::is_monotone(source) && detail::is_monotone(target);
   }
@@ -138,6 +143,21 @@ std::optional<WarpGrid> first_grid(const Pair& pair, const Profiles& profiles) {
   return std::nullopt;
 }
 
+/// Of contours that lose deeper and deeper notches.
+std::optional<WarpGrid> simplified_grid(const Pair& pair) {
+  for (double simplified_m = kMostSimplified_m / 8.0; simplified_m <= kMostSimplified_m;
+       simplified_m *= 2.0) {
+    for (const ScanAxis axis : {ScanAxis::kMain, ScanAxis::kOther}) {
+      auto grid = first_grid(pair, Profiles(pair, axis, simplified_m));
+      if (!grid) continue;
+      grid->kind = WarpKind::kSimplified;
+      grid->simplified_m = simplified_m;
+      return grid;
+    }
+  }
+  return std::nullopt;
+}
+
 Quad box_quad(const OrientedBox& box, Symmetry symmetry) {
   const BoxFrame frame(box, symmetry);
   const double l = frame.length_m();
@@ -156,6 +176,8 @@ std::string_view warp_kind_name(WarpKind kind) {
       return "other_axis";
     case WarpKind::kSlanted:
       return "slanted";
+    case WarpKind::kSimplified:
+      return "simplified";
     case WarpKind::kBox:
       return "box";
   }
@@ -180,12 +202,13 @@ WarpGrid warp_grid(const ParcelShape& source, const ParcelShape& target, Symmetr
     grid = found(first_grid(pair, along_other), WarpKind::kOtherAxis);
   if (!grid) grid = found(first_grid(pair, along_main), WarpKind::kSlanted);
   if (!grid) grid = found(first_grid(pair, along_other), WarpKind::kSlanted);
+  if (!grid) grid = simplified_grid(pair);
   if (grid) return *std::move(grid);
-  return {WarpKind::kBox,
-          symmetry,
-          {0.0, 1.0},
-          {box_quad(target.box, Symmetry::kKept)},
-          {box_quad(source.box, symmetry)}};
+  return {.kind = WarpKind::kBox,
+          .symmetry = symmetry,
+          .lines = {0.0, 1.0},
+          .target = {box_quad(target.box, Symmetry::kKept)},
+          .source = {box_quad(source.box, symmetry)}};
 }
 
 Point bilinear(const Quad& quad, double a, double b) {
