@@ -13,6 +13,8 @@
 #include "imagery/image_mosaic.h"
 #include "imagery/imagery_plan.h"
 #include "imagery/imagery_report.h"
+#include "imagery/map_reader.h"
+#include "imagery/rendered_orthophoto.h"
 #include "output_file.h"
 #include "set_option.h"
 
@@ -41,8 +43,10 @@ struct Arguments {
   std::vector<std::string> settings;
   bool not_itself = false;
   bool jpeg = false;
+  std::string ground = "map";
   std::optional<double> pixel_m;
   std::vector<double> window;
+  std::vector<std::size_t> grid;
   std::uint64_t seed = 1;
   Jobs jobs;
   std::string out;
@@ -126,6 +130,8 @@ void expect_consistent(const Arguments& args) {
     throw InputError("--example2: say with --weight how many parcels take their image from it");
   if (args.ramp.empty() == (args.weight.size() == 2))
     throw InputError("--ramp: goes with two values of --weight, at its start and at its end");
+  if (!args.grid.empty() && args.report.empty())
+    throw InputError("--grid: goes into --report, which is not given");
   for (const double w : args.weight) {
     if (!(w >= 0.0 && w <= 1.0)) throw InputError(fmt::format("--weight {}: allowed 0..1", w));
   }
@@ -159,6 +165,32 @@ geodata::RasterGrid grid_of(const Arguments& args, const harness::ReadParcelShap
           pixel_m,
           static_cast<std::size_t>(width),
           static_cast<std::size_t>(height)};
+}
+
+/// The map between the parcels, rendered as `plat orthophoto` does, or one colour where the city
+/// has no streets to draw.
+imagery::GroundPainter ground_of(const Arguments& args, const harness::ReadParcelShapes& city,
+                                 const geodata::RasterGrid& grid) {
+  const harness::ParcelShapeSources sources = harness::parcel_shape_sources(args.city);
+  if (args.ground != "map" || !sources.streets) return imagery::plain_ground(grid, kPlainGround);
+  imagery::MapSources map = imagery::map_sources_in(sources.parcels.file);
+  map.parcels = sources.parcels;  // widths are measured between them
+  map.footprints.reset();
+  imagery::MapLayers layers = imagery::read_map(map, args.jobs);
+  expects(layers.frame == city.frame, "both are read in the frame of the parcels");
+  layers.parcels.clear();
+  imagery::OrthophotoOptions options;
+  options.pixel_m = grid.pixel_m;
+  options.missing = imagery::MissingFootprints::kLeave;
+  const auto picture = std::make_shared<imagery::RenderedOrthophoto>(layers, options, args.seed);
+  return [picture, grid](const geodata::PixelWindow& window) {
+    // Pixels of both grids are the same; the box is kept off its neighbours.
+    const Box box = geodata::grid_of(geodata::empty_raster(grid, window)).box();
+    geodata::Raster ground = picture->render(box.expanded(-0.25 * grid.pixel_m), Jobs{1});
+    expects(ground.width == window.width && ground.height == window.height,
+            "the grids have common lines");
+    return ground;
+  };
 }
 
 /// Says what the picture is made of, and that a part was rendered where it was.
@@ -212,8 +244,15 @@ void write_report(const Arguments& args, const harness::ReadParcelShapes& city,
   std::vector<std::string> names;
   for (const Example& example : examples) names.push_back(example.name);
   const auto rows = imagery::imagery_rows(city.shapes, parcels, plan, args.jobs);
-  const std::vector<geodata::Layer> layers{
+  std::vector<geodata::Layer> layers{
       imagery::imagery_layer(city.frame, city.shapes, parcels, names, plan, rows), failures};
+  if (!args.grid.empty()) {
+    layers.push_back(
+        imagery::target_grid_layer(city.frame, city.shapes, plan, args.grid[0], args.grid[1]));
+    for (std::size_t e = 0; e < examples.size(); ++e)
+      layers.push_back(imagery::source_grid_layer(examples[e].image->grid().frame, city.shapes,
+                                                  plan, e, args.grid[0], args.grid[1]));
+  }
   geodata::write_layers(args.report, layers);
 }
 
@@ -242,8 +281,7 @@ ExitStatus run(const Arguments& args) {
   const auto plan = imagery::plan_imagery(city.shapes, parcels, options, args.jobs);
   const geodata::RasterGrid grid =
       grid_of(args, city, args.pixel_m.value_or(images.front()->grid().pixel_m));
-  const imagery::MosaicInput input{city.shapes, plan, images,
-                                   imagery::plain_ground(grid, kPlainGround)};
+  const imagery::MosaicInput input{city.shapes, plan, images, ground_of(args, city, grid)};
   const auto compression =
       args.jpeg ? geodata::RasterCompression::kJpeg : geodata::RasterCompression::kLossless;
   imagery::write_mosaic(args.out, input, grid,
@@ -302,12 +340,24 @@ void add_imagery_command(CLI::App& app, Action& action) {
   command->add_option("--report", args->report,
                       "GeoPackage to write as well: layer imagery, per parcel its source, the "
                       "kind of warp, stretch and repetition; layer failures");
+  command
+      ->add_option("--grid", args->grid,
+                   "S N: layers target_grid and source_grid in --report: S scan lines with N "
+                   "samples each, which correspond")
+      ->expected(2)
+      ->check(CLI::Range(2, 1000));
   command->add_option("--pixel", args->pixel_m, "side of a pixel, metres (default: of --image)")
       ->check(CLI::Range(0.01, 100.0));
   command
       ->add_option("--window", args->window,
                    "LEFT BOTTOM RIGHT TOP in the CRS of --city (default: all parcels)")
       ->expected(4);
+  command
+      ->add_option("--ground", args->ground,
+                   "between parcels: map (streets, water and open space of --city, rendered), or "
+                   "plain (one colour)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"map", "plain"}));
   command->add_flag("--jpeg", args->jpeg, "JPEG in the GeoTIFF: a tenth of the size, lossy");
   command->add_option("--seed", args->seed, "of what is drawn: variety, the source")
       ->capture_default_str()

@@ -105,7 +105,53 @@ void measure_repetition(std::span<const ParcelShape> targets, std::vector<std::s
   }
 }
 
+geodata::Layer grid_layer(std::string name, const geodata::LocalFrame& frame) {
+  geodata::Layer layer;
+  layer.name = std::move(name);
+  layer.kind = geodata::GeometryKind::kPoint;
+  layer.frame = frame;
+  layer.fields = {{"parcel", geodata::FieldType::kText},
+                  {"line", geodata::FieldType::kInteger},
+                  {"sample", geodata::FieldType::kInteger}};
+  return layer;
+}
+
+void add_points(geodata::Layer& layer, const std::string& parcel, std::span<const Point> points,
+                std::size_t samples) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    geodata::Feature feature;
+    feature.points.push_back(points[i]);
+    feature.attributes = {parcel, static_cast<std::int64_t>(i / samples),
+                          static_cast<std::int64_t>(i % samples)};
+    layer.features.push_back(std::move(feature));
+  }
+}
+
 }  // namespace
+
+geodata::Layer target_grid_layer(const geodata::LocalFrame& frame,
+                                 std::span<const ParcelShape> targets,
+                                 std::span<const std::optional<ParcelImage>> plan,
+                                 std::size_t lines, std::size_t samples) {
+  geodata::Layer layer = grid_layer("target_grid", frame);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!plan[i]) continue;
+    add_points(layer, targets[i].id, grid_samples(plan[i]->grid, lines, samples).target, samples);
+  }
+  return layer;
+}
+
+geodata::Layer source_grid_layer(const geodata::LocalFrame& frame,
+                                 std::span<const ParcelShape> targets,
+                                 std::span<const std::optional<ParcelImage>> plan,
+                                 std::size_t example, std::size_t lines, std::size_t samples) {
+  geodata::Layer layer = grid_layer(example == 0 ? "source_grid" : "source_grid2", frame);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!plan[i] || plan[i]->example != example) continue;
+    add_points(layer, targets[i].id, grid_samples(plan[i]->grid, lines, samples).source, samples);
+  }
+  return layer;
+}
 
 std::string_view symmetry_name(Symmetry symmetry) {
   switch (symmetry) {

@@ -41,6 +41,20 @@ geodata::Layer imagery_layer(const geodata::LocalFrame& frame, std::span<const P
                              std::span<const std::optional<ParcelImage>> plan,
                              std::span<const std::optional<ImageryRow>> rows);
 
+/// The s x n points of each pair of parcels that correspond [AVB08, Fig. 7], in the target: layer
+/// `target_grid`, points with parcel, line and sample.
+geodata::Layer target_grid_layer(const geodata::LocalFrame& frame,
+                                 std::span<const ParcelShape> targets,
+                                 std::span<const std::optional<ParcelImage>> plan,
+                                 std::size_t lines, std::size_t samples);
+
+/// The same points in the sources of example `example`, in its frame: layer `source_grid`, or
+/// `source_grid2` of the second example; `parcel` is the target.
+geodata::Layer source_grid_layer(const geodata::LocalFrame& frame,
+                                 std::span<const ParcelShape> targets,
+                                 std::span<const std::optional<ParcelImage>> plan,
+                                 std::size_t example, std::size_t lines, std::size_t samples);
+
 std::string_view symmetry_name(Symmetry symmetry);
 
 }  // namespace plat::imagery

@@ -97,6 +97,16 @@ class Imagery(CliTest):
         self.assertEqual(sum(1 / row["uses"] for row in rows), len({row["source_parcel"] for row in rows}))
         self.assertEqual(read_layer(self.path("report.gpkg"), "failures"), [])
 
+    def test_the_grid_shows_the_points_that_correspond(self):
+        self.make_example()
+        self.city("new.gpkg", LOTS)
+        report = self.path("report.gpkg")
+        self.assert_status(self.fill("--report", report, "--grid", 5, 3), DONE)
+        target, source = read_layer(report, "target_grid"), read_layer(report, "source_grid")
+        self.assertEqual(len(target), len(LOTS) * 15)
+        self.assertEqual([p for p, _ in target], [p for p, _ in source])
+        self.assert_refused(self.fill("--grid", 5, 3), "--grid", "--report")
+
     def test_no_ground_shows_between_parcels(self):
         self.make_example(lambda x, y: (10, 20, 250))
         self.city("new.gpkg", [rectangle(13.3 * i, 0, 13.3, 31) for i in range(4)])
