@@ -115,10 +115,18 @@ struct Profiles {
   }
 };
 
-std::optional<WarpGrid> grid_of(const Pair& pair, const Profiles& profiles, ChainEnds ends,
+struct Ends {
+  ChainEnds source;
+  ChainEnds target;
+};
+constexpr std::array kEnds{
+    Ends{ChainEnds::kSides, ChainEnds::kSides}, Ends{ChainEnds::kTips, ChainEnds::kSides},
+    Ends{ChainEnds::kSides, ChainEnds::kTips}, Ends{ChainEnds::kTips, ChainEnds::kTips}};
+
+std::optional<WarpGrid> grid_of(const Pair& pair, const Profiles& profiles, Ends ends,
                                 double lean) {
-  const auto source = detail::chains_of(profiles.source, ends, lean);
-  const auto target = detail::chains_of(profiles.target, ends, lean);
+  const auto source = detail::chains_of(profiles.source, ends.source, lean);
+  const auto target = detail::chains_of(profiles.target, ends.target, lean);
   if (!source || !target) return std::nullopt;
   WarpGrid grid;
   grid.symmetry = pair.symmetry;
@@ -132,10 +140,10 @@ std::optional<WarpGrid> grid_of(const Pair& pair, const Profiles& profiles, Chai
   return grid;
 }
 
-/// Leaning less and less; at last upright lines between tips, which never fail on monotone
+/// Leaning less and less; at last upright lines between tips, which hardly fail on monotone
 /// contours.
 std::optional<WarpGrid> first_grid(const Pair& pair, const Profiles& profiles) {
-  for (const ChainEnds ends : {ChainEnds::kSides, ChainEnds::kTips}) {
+  for (const Ends ends : kEnds) {
     for (const double lean : kLeans) {
       if (auto grid = grid_of(pair, profiles, ends, lean)) return grid;
     }
