@@ -48,7 +48,7 @@ struct Weave {
 constexpr std::array<Weave, static_cast<std::size_t>(Material::kCount)> kWeaves{{
     {.grain = 0.04F, .fine = 0.05F, .medium = 0.045F, .broad = 0.05F, .hue = 0.02F},     // soil
     {.grain = 0.04F, .fine = 0.04F, .medium = 0.04F, .broad = 0.045F, .hue = 0.04F},     // grass
-    {.grain = 0.05F, .fine = 0.06F, .medium = 0.06F, .broad = 0.06F, .hue = 0.05F},      // meadow
+    {.grain = 0.05F, .fine = 0.06F, .medium = 0.06F, .broad = 0.06F, .hue = 0.03F},      // meadow
     {.grain = 0.03F, .fine = 0.02F, .medium = 0.018F, .broad = 0.025F, .hue = 0.0F},     // asphalt
     {.grain = 0.03F, .fine = 0.02F, .medium = 0.02F, .broad = 0.025F, .hue = 0.0F},      // concrete
     {.grain = 0.08F, .fine = 0.04F, .medium = 0.03F, .broad = 0.03F, .hue = 0.01F},      // gravel

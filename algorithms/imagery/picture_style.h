@@ -38,7 +38,7 @@ inline constexpr Tint kYellowPaint{0.76, 0.64, 0.33};
 inline constexpr Tint kSoil{0.55, 0.475, 0.375};
 inline constexpr Tint kDrySoil{0.66, 0.57, 0.45};
 inline constexpr Tint kLawn{0.37, 0.43, 0.25};
-inline constexpr Tint kDryLawn{0.53, 0.51, 0.34};
+inline constexpr Tint kDryLawn{0.505, 0.495, 0.36};
 inline constexpr Tint kShrubs{0.29, 0.34, 0.19};
 inline constexpr Tint kHedge{0.22, 0.28, 0.15};
 inline constexpr Tint kFence{0.45, 0.40, 0.34};
