@@ -90,6 +90,8 @@ TEST(TileStatistics, EqualSidesDoNotDifferAndBetterOnesDo) {
   const Quantity& recall = quantity("recall_01");
   const auto none = tile_difference(a, a, recall, 300, 300, 1).value();
   EXPECT_EQ(none.difference, 0.0);
+  EXPECT_EQ(none.interval.low, 0.0);  // both sides draw the same squares
+  EXPECT_EQ(none.interval.high, 0.0);
   EXPECT_EQ(none.p_value, 1.0);
   EXPECT_EQ(none.effect_size, 0.0);
   const auto better = tile_difference(a, b, recall, 300, 300, 1).value();
