@@ -26,6 +26,7 @@ void add_parts_command(CLI::App& app, Action& action);
 void add_search_command(CLI::App& app, Action& action);
 void add_build_command(CLI::App& app, Action& action);
 void add_measures_command(CLI::App& app, Action& action);
+void add_transitions_command(CLI::App& app, Action& action);
 void add_imagery_command(CLI::App& app, Action& action);
 void add_orthophoto_command(CLI::App& app, Action& action);
 

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   plat::cli::add_parts_command(app, action);
   plat::cli::add_search_command(app, action);
   plat::cli::add_build_command(app, action);
+  plat::cli::add_transitions_command(app, action);
   plat::cli::add_imagery_command(app, action);
   plat::cli::add_orthophoto_command(app, action);
   try {

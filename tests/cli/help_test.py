@@ -22,6 +22,7 @@ COMMANDS = {
     ("figure",): ["names", "--list", "--out", "PLAT_DATA_DIR"],
     ("orthophoto",): ["--city", "--streets", "--parcels", "--footprints", "--water", "--window", "--pixel", "--seed", "--out"],
     ("synthesize",): ["script", "--out", "--seed", "--jobs", "docs/synthesis_script.md"],
+    ("transitions",): ["points", "--base", "--from", "--street", "--streets", "--set", "--out"],
     ("search",): ["problem", "--method", "--set", "--k", "--json", "--out", "--relax"],
 }
 

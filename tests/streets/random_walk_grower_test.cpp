@@ -280,6 +280,35 @@ TEST(RandomWalk, AnOpenEndGoesOnOnce) {
   EXPECT_TRUE(connected(growth).contains(between({0, 0}, {100, 0})));
 }
 
+TEST(RandomWalk, AnOpenEndDoesNotGoOnBackwards) {
+  // The way it came does not lie on the line through both points: they could be one street.
+  GrowthSite site = site_of({{100, 0}, {-100, 0}});
+  site.existing.nodes = {{0, 0}, {0, 50}};
+  Street street;
+  street.from = 1;
+  street.to = 0;
+  street.line = {{0, 50}, {0, 0}};
+  street.width_m = 10.0;
+  site.existing.streets = {street};
+  site.open_ends = {{0, style(0), {1, 0}}};
+  EXPECT_EQ(connections_at(grow(site), {0, 0}), 2U);
+}
+
+TEST(RandomWalk, NoStepIsImprobableSeenFromEitherEnd) {
+  // Right for the point, but the open end heads north.
+  GrowthSite site = site_of({{100, 0}});
+  site.existing.nodes = {{0, -50}, {0, 0}};
+  Street street;
+  street.from = 0;
+  street.to = 1;
+  street.line = {{0, -50}, {0, 0}};
+  street.width_m = 10.0;
+  site.existing.streets = {street};
+  site.open_ends = {{1, style(0), {0, 1}}};
+  EXPECT_TRUE(grow(site).segments.empty());
+  EXPECT_EQ(grow(site, {.view = RandomWalkGrower::View::kBase}).segments.size(), 1U);
+}
+
 // ---- what may be odd about a site ----
 
 TEST(RandomWalk, PointsThatNoStreetReachesAreLeftAlone) {
