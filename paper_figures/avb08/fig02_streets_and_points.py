@@ -83,7 +83,8 @@ def measure_claims(figure, city):
             ends[tuple(end[:2])] += 1
     slots = collections.Counter()
     for row in city.points.itertuples():
-        slots[(row.geometry.x, row.geometry.y)] += row.a_connections + (0 if math.isnan(row.b_connections) else int(row.b_connections))
+        of_b = 0 if math.isnan(row.b_connections) else int(row.b_connections)
+        slots[(row.geometry.x, row.geometry.y)] += row.a_connections + of_b
     missing = [place for place, degree in ends.items() if degree != 2 and place not in slots]
     figure.measured("every_place", len(missing), f"{len(slots)} places of {len(city.points)} points")
     figure.measured("every_segment", max(abs(ends[place] - n) for place, n in slots.items()),

@@ -66,7 +66,8 @@ def ks_distance(first, second):
 
 
 def draw_differences(axes, observed, grown):
-    for keys, colour, width in ((observed & grown, FOUND, 0.6), (observed - grown, MISSED, 1.0), (grown - observed, INVENTED, 1.0)):
+    for keys, colour, width in ((observed & grown, FOUND, 0.6), (observed - grown, MISSED, 1.0),
+                                (grown - observed, INVENTED, 1.0)):
         collection = LineCollection([list(k) for k in sorted(keys)], colors=colour, linewidths=width)
         collection.set_in_layout(False)
         axes.add_collection(collection, autolim=False)
@@ -102,7 +103,8 @@ def measure_claims(figure, city, observed, grown):
     true_share = length_of(found) / length_of(grown)
     figure.measured("main_recovered", of_main, f"{length_of(main) / 1000:.1f} km of level 0; of their "
                     f"{len(main)} segments {len(main & found) / len(main):.3f}, of all segments {len(found) / len(observed):.3f}")
-    figure.measured("main_better", of_main - of_all, f"of all streets {of_all:.3f}; {true_share:.3f} of the grown length is the example's")
+    figure.measured("main_better", of_main - of_all,
+                    f"of all streets {of_all:.3f}; {true_share:.3f} of the grown length is the example's")
     figure.measured("closely_resembles", ks_distance([math.dist(*k) for k in observed], [math.dist(*k) for k in grown]),
                     f"{len(observed)} and {len(grown)} segments")
     ratio = length_of(grown) / length_of(observed)
