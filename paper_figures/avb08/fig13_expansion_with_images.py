@@ -15,7 +15,7 @@ from shapely.geometry import box  # noqa: E402
 
 FRAGMENT = Window("cambridge_ma", 230000.0, 903400.0, 230700.0, 904100.0, "Huron village: an irregular pattern")
 #: How far to the east the copy of the fragment's points lies.
-EAST_M = 600.0
+EAST_M = 700.0
 PIXEL_M = 0.5
 #: One of so many of the most similar lots, so that neighbours do not look the same.
 VARIETY = 8
