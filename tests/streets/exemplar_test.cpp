@@ -221,7 +221,7 @@ TEST(ExemplarOf, ParcelsNearbyGiveTheirMeanArea) {
     return Polygon{{{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}, {}};
   };
   const StreetNetwork network = network_of(std::vector<RawStreet>{{"s", {{0, 0}, {500, 0}}, {}}});
-  const std::vector<Polygon> parcels{box(5, 5, 10), box(-30, 5, 20), box(60, 60, 30)};
+  const std::vector<Polygon> parcels{box(5, 5, 10), box(-30, 5, 20), box(35, 35, 30)};
   const Exemplar exemplar = exemplar_of(network, parcels);
   EXPECT_EQ(points_at(exemplar, {0, 0}).at(0).parcel_area_m2, (100.0 + 400.0) / 2.0);
   EXPECT_FALSE(points_at(exemplar, {500, 0}).at(0).parcel_area_m2.has_value());
