@@ -66,6 +66,8 @@ def observed(figure, window):
 
 
 def draw(figure):
+    for window in (CITY, IRREGULAR):
+        figure.dataset(window.dataset)
     layouts = {"grid": expanded(figure, "grid", GRID), "irregular": expanded(figure, "irregular", IRREGULAR)}
     picture, ((left, middle, right),) = sheet(1, 3, 15.0, 5.2)
     draw_city(left, layouts["grid"], False)
