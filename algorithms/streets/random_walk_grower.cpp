@@ -11,6 +11,7 @@
 
 #include "streets/growth_plane.h"
 #include "streets/segment_geometry.h"
+#include "streets/walk_joints_internal.h"
 #include "streets/walk_slots_internal.h"
 #include "streets/walk_steps_internal.h"
 
@@ -50,6 +51,17 @@ class Walks {
           walk_together(members);
         }
       } while (edges_.size() > before);
+    }
+  }
+
+  /// Open ends that no walk came to are joined to what is free near them.
+  void join_open_ends() {
+    for (const WalkStep& joint : detail::open_end_joints(slots_, options_)) {
+      const detail::WalkSlot& from = slots_[joint.from];
+      const detail::WalkSlot& to = slots_[joint.to];
+      if (!from.is_free() || !to.is_free() || !plane_.admits(from.vertex, to.vertex)) continue;
+      const double clearance = detail::clearance_m(from, to, options_);
+      if (!plane_.passes_over(from.vertex, to.vertex, clearance)) take(joint);
     }
   }
 
@@ -197,6 +209,7 @@ Expected<Growth> RandomWalkGrower::grow(const GrowthSite& site, Rng& rng) const 
   if (!plane) return tl::unexpected(std::move(plane.error()));
   Walks walks(site, *plane, options_, rng);
   walks.walk();
+  if (options_.open_ends == OpenEnds::kJoined) walks.join_open_ends();
   return assemble_growth(site, *plane, walks.finish());
 }
 

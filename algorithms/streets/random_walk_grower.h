@@ -12,7 +12,8 @@ namespace plat::streets {
 /// say that streets go on.
 ///
 /// Guarantees, besides the family's contract, each with the option that switches it off:
-/// 1. a street of a level goes only to points that know one (`levels`);  2. at most two streets
+/// 1. a street of a level goes only to points that know one (`levels`), but where an open end is
+/// joined in the end (`open_ends`);  2. at most two streets
 /// pass a point, with two connections each (`connections`);  3. no step is less likely than
 /// `threshold`;  4. no step crosses a street but at its points, and no point is added
 /// (`crossings`);  5. no street runs over a point at which it does not stop (`clearance_widths`);
@@ -20,10 +21,10 @@ namespace plat::streets {
 /// Complexity: O(n log n) where streets are of similar length and each point has a bounded number
 /// of others within its reach.
 /// Paper: [AVB08, Sec. 3.1.1, Fig. 3 and 5]. With `connections` four, `first_step` blind, `view`
-/// base, `start` random, `clearance_widths` 0 and the deviations' bounds 0, nothing is added to it.
-/// Deviation: what the paper leaves open, and what was added because it recovers more of observed
-/// cities (ADR 0027): the order in which steps are taken, the first step of a street, which has no
-/// angle, the look back from the target, the clearance, least deviations.
+/// base, `start` random, `open_ends` by_level, `clearance_widths` 0 and the deviations' bounds 0,
+/// nothing is added to it. Deviation: what the paper leaves open, and what was added because it
+/// recovers more of observed cities (ADR 0027): the order in which steps are taken, the first step
+/// of a street, which has no angle, the look back from the target, the clearance, least deviations.
 class RandomWalkGrower {
  public:
   static constexpr std::string_view kName = "random_walk";
@@ -37,6 +38,7 @@ class RandomWalkGrower {
   enum class Start { kRandom, kLikeliest };
   enum class FirstStep { kBlind, kLookAhead };
   enum class View { kBase, kMutual };
+  enum class OpenEnds { kJoined, kByLevel };
   enum class Curves { kTortuous, kStraight };
 
   struct Options {
@@ -53,6 +55,8 @@ class RandomWalkGrower {
     FirstStep first_step = FirstStep::kLookAhead;
     View view = View::kMutual;
     double clearance_widths = 0.5;  ///< of the street's own width
+    OpenEnds open_ends = OpenEnds::kJoined;
+    double joint_angle_deviation_rad = 0.5;
     Curves curves = Curves::kTortuous;
 
     static constexpr auto fields() {
@@ -116,6 +120,14 @@ class RandomWalkGrower {
           Field{"clearance_widths", &Options::clearance_widths, 0.0, 10.0,
                 "a street passes no point nearer than this share of its width; 0: through none "
                 "exactly (the paper)"},
+          EnumField{
+              "open_ends",
+              &Options::open_ends,
+              {EnumName{"joined", OpenEnds::kJoined}, EnumName{"by_level", OpenEnds::kByLevel}},
+              "of the existing network that no walk came to: joined to free points near them "
+              "whatever their level, or left open"},
+          Field{"joint_angle_deviation_rad", &Options::joint_angle_deviation_rad, 0.01, 3.15,
+                "deviation of the turns where an open end is joined"},
           EnumField{
               "curves",
               &Options::curves,

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "streets/street_width.h"
 #include "streets/walk_slots_internal.h"
 
 namespace plat::streets::detail {
@@ -30,6 +32,7 @@ WalkSlots::WalkSlots(const GrowthSite& site, const GrowthPlane& plane,
                       .capacity = 1,
                       .heading = end.heading});
   }
+  open_ends_ = static_cast<std::uint32_t>(slots_.size());
   for (std::uint32_t i = 0; i < site.points.size(); ++i) {
     const std::uint32_t vertex = plane.vertex_of_point(i);
     for (const PassingStreet& street : streets_of(site.points[i])) {
@@ -59,6 +62,15 @@ std::uint32_t WalkSlots::street_of(std::uint32_t slot) {
     slot = parents_[slot];
   }
   return slot;
+}
+
+double clearance_m(const WalkSlot& from, const WalkSlot& to,
+                   const RandomWalkGrower::Options& options) {
+  const auto width_m = [](const WalkSlot& slot) {
+    const double width = slot.style.width_m;
+    return width > 0.0 && std::isfinite(width) ? width : WidthOptions{}.default_width_m;
+  };
+  return options.clearance_widths * 0.5 * (width_m(from) + width_m(to));
 }
 
 }  // namespace plat::streets::detail

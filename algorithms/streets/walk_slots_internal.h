@@ -34,6 +34,9 @@ class WalkSlots {
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(slots_.size()); }
   [[nodiscard]] const WalkSlot& operator[](std::uint32_t slot) const { return slots_[slot]; }
 
+  /// Slots 0 .. n-1 are those of the site's open ends.
+  [[nodiscard]] std::uint32_t open_ends() const { return open_ends_; }
+
   /// A new segment leaves `from` in a direction; where it reaches a slot, both are one street.
   void connect(std::uint32_t from, std::optional<std::uint32_t> to, Point way);
 
@@ -42,7 +45,12 @@ class WalkSlots {
 
  private:
   std::vector<WalkSlot> slots_;
+  std::uint32_t open_ends_ = 0;
   std::vector<std::uint32_t> parents_;  ///< a forest: one tree per street
 };
+
+/// How near to other points a segment between two slots may pass, metres.
+double clearance_m(const WalkSlot& from, const WalkSlot& to,
+                   const RandomWalkGrower::Options& options);
 
 }  // namespace plat::streets::detail

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "streets/growth_cells.h"
-#include "streets/street_width.h"
 #include "streets/walk_steps_internal.h"
 
 namespace plat::streets::detail {
@@ -97,20 +96,12 @@ void WalkSteps::find_twins() {
   }
 }
 
-double WalkSteps::clearance_m(std::uint32_t base, std::uint32_t target) const {
-  const double default_m = WidthOptions{}.default_width_m;
-  const auto width_m = [&](std::uint32_t slot) {
-    const double width = slots_[slot].style.width_m;
-    return width > 0.0 && std::isfinite(width) ? width : default_m;
-  };
-  return options_.clearance_widths * 0.5 * (width_m(base) + width_m(target));
-}
-
 void WalkSteps::find_targets(std::uint32_t base, const std::vector<std::uint32_t>& near) {
   for (const std::uint32_t k : near) {
     Target target{.slot = k};
     if (!is_possible(base, target)) continue;
-    if (plane_.passes_over(slots_[base].vertex, slots_[k].vertex, clearance_m(base, k))) continue;
+    const double clearance = clearance_m(slots_[base], slots_[k], options_);
+    if (plane_.passes_over(slots_[base].vertex, slots_[k].vertex, clearance)) continue;
     target.by_distance = transition_probability(
         slots_[base].style, {.distance_m = length(way(base, k)), .turn_rad = {}}, model_);
     targets_[base].push_back(target);

@@ -58,7 +58,6 @@ class WalkSteps {
 
   void find_targets(std::uint32_t base, const std::vector<std::uint32_t>& near);
   void find_twins();
-  [[nodiscard]] double clearance_m(std::uint32_t base, std::uint32_t target) const;
   [[nodiscard]] Point way(std::uint32_t from, std::uint32_t to) const;
   double view(std::uint32_t base, Target& target);
   void look_ahead(std::uint32_t base, Target& target);

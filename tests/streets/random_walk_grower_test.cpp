@@ -309,6 +309,65 @@ TEST(RandomWalk, NoStepIsImprobableSeenFromEitherEnd) {
   EXPECT_EQ(grow(site, {.view = RandomWalkGrower::View::kBase}).segments.size(), 1U);
 }
 
+/// A street that comes from the west and may go on at the origin.
+GrowthSite with_open_end(const std::vector<Point>& places, const PassingStreet& street) {
+  GrowthSite site = site_of(places, street);
+  site.existing.nodes = {{-50, 0}, {0, 0}};
+  Street existing;
+  existing.from = 0;
+  existing.to = 1;
+  existing.line = {{-50, 0}, {0, 0}};
+  existing.width_m = 10.0;
+  site.existing.streets = {existing};
+  site.open_ends = {{1, style(0), {1, 0}}};
+  return site;
+}
+
+TEST(RandomWalk, AnOpenEndIsJoinedWhateverTheLevelAndDistance) {
+  const GrowthSite site = with_open_end({{30, 10}}, style(3));
+  EXPECT_TRUE(connected(grow(site)).contains(between({0, 0}, {30, 10})));
+  EXPECT_TRUE(grow(site, {.open_ends = RandomWalkGrower::OpenEnds::kByLevel}).segments.empty());
+}
+
+TEST(RandomWalk, AnOpenEndIsJoinedAheadAndNear) {
+  EXPECT_TRUE(grow(with_open_end({{-10, 30}}, style(3))).segments.empty()) << "turns back";
+  EXPECT_TRUE(grow(with_open_end({{400, 0}}, style(3))).segments.empty()) << "too far";
+  const Growth growth = grow(with_open_end({{40, 0}, {30, 25}}, style(3, 500.0)));
+  EXPECT_TRUE(connected(growth).contains(between({0, 0}, {40, 0}))) << "the one straight on";
+  EXPECT_EQ(connections_at(growth, {0, 0}), 2U);
+}
+
+TEST(RandomWalk, AnOpenEndIsJoinedToWhatIsFree) {
+  // A street from south to north passes the point and leaves it no slot.
+  const GrowthSite site = with_open_end({{40, -100}, {40, 0}, {40, 100}}, style(3));
+  const Growth growth = grow(site);
+  EXPECT_TRUE(connected(growth).contains(between({40, -100}, {40, 0})));
+  EXPECT_FALSE(connected(growth).contains(between({0, 0}, {40, 0})));
+}
+
+TEST(RandomWalk, TheLastFreeSlotIsJoinedToOneOpenEnd) {
+  PassingStreet ending = style(3);
+  ending.connections = 1;
+  GrowthSite site = with_open_end({{60, 0}}, ending);
+  site.existing.nodes = {{-50, 0}, {0, 0}, {120, 0}, {170, 0}};
+  Street other = site.existing.streets[0];
+  other.from = 3;
+  other.to = 2;
+  other.line = {{170, 0}, {120, 0}};
+  site.existing.streets.push_back(other);
+  site.open_ends.push_back({2, style(0), {-1, 0}});
+  EXPECT_EQ(grow(site).segments.size(), 2U);
+  const Options options{.connections = RandomWalkGrower::Connections::kObserved};
+  EXPECT_EQ(connections_at(grow(site, options), {60, 0}), 1U);
+}
+
+TEST(RandomWalk, AnOpenEndIsNotJoinedAcrossAnObstacle) {
+  GrowthSite site = with_open_end({{60, 0}}, style(3));
+  EXPECT_EQ(grow(site).segments.size(), 1U);
+  site.obstacles = {{{{20, -50}, {30, -50}, {30, 50}, {20, 50}}, {}}};
+  EXPECT_TRUE(grow(site).segments.empty());
+}
+
 // ---- what may be odd about a site ----
 
 TEST(RandomWalk, PointsThatNoStreetReachesAreLeftAlone) {
