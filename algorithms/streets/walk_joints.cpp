@@ -40,7 +40,7 @@ std::vector<WalkStep> open_end_joints(const WalkSlots& slots,
   const double widest_m =
       most_deviations * *std::max_element(deviation_m.begin(), deviation_m.end());
   GrowthCells cells(std::max(widest_m, kGridStep_m));
-  for (std::uint32_t i = 0; i < slots.size(); ++i) {
+  for (std::uint32_t i = slots.open_ends(); i < slots.size(); ++i) {
     if (slots[i].is_free()) cells.add({slots[i].place, slots[i].place}, i);
   }
 

@@ -9,7 +9,8 @@
 namespace plat::streets::detail {
 
 /// Steps by which open ends that found none can still be joined to the points, the likeliest first:
-/// from each free open end to each free slot within reach, whatever its level. How likely: a
+/// from each free open end to each free slot of a point within reach, whatever its level; never to
+/// another open end, which would change the existing network among itself. How likely: a
 /// Gaussian of the turns at both ends and of the length. Distances that the existing street kept
 /// say little here, for its last crossing may lie anywhere behind the place where it was cut.
 ///

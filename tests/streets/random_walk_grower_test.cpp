@@ -361,6 +361,18 @@ TEST(RandomWalk, TheLastFreeSlotIsJoinedToOneOpenEnd) {
   EXPECT_EQ(connections_at(grow(site, options), {60, 0}), 1U);
 }
 
+TEST(RandomWalk, OpenEndsAreNotJoinedToEachOther) {
+  GrowthSite site = with_open_end({{60, 500}}, style(3));
+  site.existing.nodes = {{-50, 0}, {0, 0}, {40, 0}, {90, 0}};
+  Street other = site.existing.streets[0];
+  other.from = 3;
+  other.to = 2;
+  other.line = {{90, 0}, {40, 0}};
+  site.existing.streets.push_back(other);
+  site.open_ends.push_back({2, style(1), {-1, 0}});
+  EXPECT_TRUE(grow(site).segments.empty());
+}
+
 TEST(RandomWalk, AnOpenEndIsNotJoinedAcrossAnObstacle) {
   GrowthSite site = with_open_end({{60, 0}}, style(3));
   EXPECT_EQ(grow(site).segments.size(), 1U);
