@@ -32,6 +32,26 @@ GrowthSite site_of(const std::vector<Point>& places, const PassingStreet& street
   return site;
 }
 
+/// An existing street between two nodes of the site's network.
+Street existing_street(const GrowthSite& site, std::uint32_t from, std::uint32_t to) {
+  Street street;
+  street.from = from;
+  street.to = to;
+  street.line = {site.existing.nodes[from], site.existing.nodes[to]};
+  street.width_m = 10.0;
+  return street;
+}
+
+/// An existing street that comes from a place west or south of the origin and may go on there.
+GrowthSite with_open_end(const std::vector<Point>& places, const PassingStreet& street = style(0),
+                         Point from = {-50, 0}) {
+  GrowthSite site = site_of(places, street);
+  site.existing.nodes = {from, {0, 0}};
+  site.existing.streets = {existing_street(site, 0, 1)};
+  site.open_ends = {{1, style(0), normalized(Point{} - from)}};
+  return site;
+}
+
 Growth grow(const GrowthSite& site, const Options& options = {}, std::uint64_t seed = 1) {
   Rng rng(seed);
   auto growth = RandomWalkGrower(options).grow(site, rng);
@@ -157,15 +177,7 @@ TEST(RandomWalk, PrefersTheMeanDistance) {
 
 TEST(RandomWalk, PrefersTheMeanAngle) {
   // From the open end at the origin, which heads east: straight on rather than to the left.
-  GrowthSite site = site_of({{0, 100}, {100, 0}});
-  site.existing.nodes = {{-50, 0}, {0, 0}};
-  Street street;
-  street.from = 0;
-  street.to = 1;
-  street.line = {{-50, 0}, {0, 0}};
-  street.width_m = 10.0;
-  site.existing.streets = {street};
-  site.open_ends = {{1, style(0), {1, 0}}};
+  const GrowthSite site = with_open_end({{0, 100}, {100, 0}});
   EXPECT_TRUE(connected(grow(site)).contains(between({0, 0}, {100, 0})));
   EXPECT_FALSE(connected(grow(site)).contains(between({0, 0}, {0, 100})));
   const auto ignored = connected(grow(site, {.angle = AxisUse::kIgnored}));
@@ -265,16 +277,10 @@ TEST(RandomWalk, SegmentsAreAsTortuousAsTheirPoints) {
 // ---- joining what exists ----
 
 TEST(RandomWalk, AnOpenEndGoesOnOnce) {
-  GrowthSite site = site_of({{100, 0}, {100, 20}, {100, -20}});
-  site.existing.nodes = {{-50, 0}, {0, 0}};
-  Street street;
-  street.from = 0;
-  street.to = 1;
-  street.line = {{-50, 0}, {0, 0}};
-  street.width_m = 10.0;
-  site.existing.streets = {street};
+  GrowthSite site = with_open_end({{100, 0}, {100, 20}, {100, -20}});
+  const std::vector<OpenEnd> ends = std::exchange(site.open_ends, {});
   EXPECT_FALSE(connected(grow(site)).contains(between({0, 0}, {100, 0}))) << "no open end";
-  site.open_ends = {{1, style(0), {1, 0}}};
+  site.open_ends = ends;
   const Growth growth = grow(site);
   EXPECT_EQ(connections_at(growth, {0, 0}), 2U);
   EXPECT_TRUE(connected(growth).contains(between({0, 0}, {100, 0})));
@@ -282,45 +288,16 @@ TEST(RandomWalk, AnOpenEndGoesOnOnce) {
 
 TEST(RandomWalk, AnOpenEndDoesNotGoOnBackwards) {
   // The way it came does not lie on the line through both points: they could be one street.
-  GrowthSite site = site_of({{100, 0}, {-100, 0}});
-  site.existing.nodes = {{0, 0}, {0, 50}};
-  Street street;
-  street.from = 1;
-  street.to = 0;
-  street.line = {{0, 50}, {0, 0}};
-  street.width_m = 10.0;
-  site.existing.streets = {street};
-  site.open_ends = {{0, style(0), {1, 0}}};
+  GrowthSite site = with_open_end({{100, 0}, {-100, 0}}, style(0), {0, -50});
+  site.open_ends[0].heading = {1, 0};
   EXPECT_EQ(connections_at(grow(site), {0, 0}), 2U);
 }
 
 TEST(RandomWalk, NoStepIsImprobableSeenFromEitherEnd) {
   // Right for the point, but the open end heads north.
-  GrowthSite site = site_of({{100, 0}});
-  site.existing.nodes = {{0, -50}, {0, 0}};
-  Street street;
-  street.from = 0;
-  street.to = 1;
-  street.line = {{0, -50}, {0, 0}};
-  street.width_m = 10.0;
-  site.existing.streets = {street};
-  site.open_ends = {{1, style(0), {0, 1}}};
+  const GrowthSite site = with_open_end({{100, 0}}, style(0), {0, -50});
   EXPECT_TRUE(grow(site).segments.empty());
   EXPECT_EQ(grow(site, {.view = RandomWalkGrower::View::kBase}).segments.size(), 1U);
-}
-
-/// A street that comes from the west and may go on at the origin.
-GrowthSite with_open_end(const std::vector<Point>& places, const PassingStreet& street) {
-  GrowthSite site = site_of(places, street);
-  site.existing.nodes = {{-50, 0}, {0, 0}};
-  Street existing;
-  existing.from = 0;
-  existing.to = 1;
-  existing.line = {{-50, 0}, {0, 0}};
-  existing.width_m = 10.0;
-  site.existing.streets = {existing};
-  site.open_ends = {{1, style(0), {1, 0}}};
-  return site;
 }
 
 TEST(RandomWalk, AnOpenEndIsJoinedWhateverTheLevelAndDistance) {
@@ -350,11 +327,7 @@ TEST(RandomWalk, TheLastFreeSlotIsJoinedToOneOpenEnd) {
   ending.connections = 1;
   GrowthSite site = with_open_end({{60, 0}}, ending);
   site.existing.nodes = {{-50, 0}, {0, 0}, {120, 0}, {170, 0}};
-  Street other = site.existing.streets[0];
-  other.from = 3;
-  other.to = 2;
-  other.line = {{170, 0}, {120, 0}};
-  site.existing.streets.push_back(other);
+  site.existing.streets.push_back(existing_street(site, 3, 2));
   site.open_ends.push_back({2, style(0), {-1, 0}});
   EXPECT_EQ(grow(site).segments.size(), 2U);
   const Options options{.connections = RandomWalkGrower::Connections::kObserved};
@@ -364,11 +337,7 @@ TEST(RandomWalk, TheLastFreeSlotIsJoinedToOneOpenEnd) {
 TEST(RandomWalk, OpenEndsAreNotJoinedToEachOther) {
   GrowthSite site = with_open_end({{60, 500}}, style(3));
   site.existing.nodes = {{-50, 0}, {0, 0}, {40, 0}, {90, 0}};
-  Street other = site.existing.streets[0];
-  other.from = 3;
-  other.to = 2;
-  other.line = {{90, 0}, {40, 0}};
-  site.existing.streets.push_back(other);
+  site.existing.streets.push_back(existing_street(site, 3, 2));
   site.open_ends.push_back({2, style(1), {-1, 0}});
   EXPECT_TRUE(grow(site).segments.empty());
 }
