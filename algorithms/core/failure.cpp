@@ -40,6 +40,10 @@ std::string_view failure_name(FailureCode code) {
       return "face_inverted";
     case FailureCode::kTooManyStates:
       return "too_many_states";
+    case FailureCode::kTilesOverlap:
+      return "tiles_overlap";
+    case FailureCode::kNoPlace:
+      return "no_place";
   }
   return "unknown";
 }

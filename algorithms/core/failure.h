@@ -30,6 +30,9 @@ enum class FailureCode : int {
   kFaceInverted = 24,     ///< a face would be turned inside out, or a street jump over another
   // Of sequences (sequences/sequence_search.h):
   kTooManyStates = 30,  ///< the search would hold or expand more states than its limit
+  // Of tiles (tiles/reconfiguration.h):
+  kTilesOverlap = 40,  ///< tiles would overlap or be turned inside out
+  kNoPlace = 41,       ///< no tiles lie where others are to be pasted
 };
 
 /// The code's name in tables and layers, e.g. "not_simple".

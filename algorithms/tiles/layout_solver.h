@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/affine.h"
+#include "core/failure.h"
+#include "core/options.h"
+#include "tiles/tile_graph.h"
+
+namespace plat::tiles {
+
+struct SolverOptions {
+  double rigidity = 1.0;        ///< weight of deformation equations; 0: any affine map is free
+  double street_weight = 0.25;  ///< of gaps across streets, against 1 of gaps between neighbours
+  static constexpr auto fields() {
+    using O = SolverOptions;
+    return std::tuple{
+        Field{"rigidity", &O::rigidity, 0.0, 1e4,
+              "Weight that keeps tiles from being deformed, against gaps; large: rigid, small: "
+              "affine."},
+        Field{"street_weight", &O::street_weight, 0.0, 1.0,
+              "Weight of gaps across streets, against 1 of gaps between neighbours."}};
+  }
+};
+
+/// Where every tile goes, and what is left of the errors.
+struct LayoutSolution {
+  std::vector<Affine> placements;    ///< per tile, from rest
+  std::vector<double> gaps_m;        ///< per joint: distance of the two points
+  std::vector<double> deformations;  ///< per tile: how far the map is from a similarity
+  double mean_property_gap_m = 0.0;
+  double mean_street_gap_m = 0.0;
+  double mean_deformation = 0.0;
+  double objective = 0.0;  ///< the sum of squares that was minimised
+};
+
+/// Finds the affine maps of all tiles that leave the least weighted sum of squared gaps and
+/// deformations, some tiles held in place: the linear least squares of [ABVA08, Sec. 4.1]. The
+/// factorisation depends on which tiles are held, not on where: dragging them is a solve with
+/// another right-hand side.
+///
+/// Guarantees: 1. no placement holds a NaN or an infinity;  2. tiles that no joints connect to a
+/// held tile stay where `resting` has them;  3. a rigid motion of all held tiles moves everything
+/// rigidly, with no error;  4. the same input gives the same bytes.
+class LayoutSolver {
+ public:
+  /// Factorises. `held`: indices of tiles, ascending, each once.
+  /// Failures: kOutOfRange for an index, a weight or a point that is not finite; kNoConvergence
+  /// where the system cannot be factorised.
+  static Expected<LayoutSolver> make(TileGraph graph, std::vector<std::uint32_t> held,
+                                     const SolverOptions& options);
+
+  /// @param targets  where the held tiles are to be, in the order of `held`, from rest
+  /// @param resting  per tile, where those are that nothing connects to a held one; empty: at rest
+  /// Failures: kOutOfRange for a target that is not finite or has no area left.
+  [[nodiscard]] Expected<LayoutSolution> solve(std::span<const Affine> targets,
+                                               std::span<const Affine> resting = {}) const;
+
+  [[nodiscard]] const TileGraph& graph() const;
+  [[nodiscard]] std::span<const std::uint32_t> held() const;
+
+ private:
+  struct System;
+  explicit LayoutSolver(std::shared_ptr<const System> system) : system_(std::move(system)) {}
+  std::shared_ptr<const System> system_;
+};
+
+/// Errors of given placements, as the solver measures them.
+LayoutSolution measure_placements(const TileGraph& graph, std::vector<Affine> placements,
+                                  const SolverOptions& options);
+
+}  // namespace plat::tiles
