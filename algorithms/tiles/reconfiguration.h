@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -16,19 +17,47 @@ namespace plat::tiles {
 
 /// When a deformed tile gives way to another one, and to which [ABVA08, Sec. 4.2].
 struct ReplacementOptions {
-  std::string similarity = "affine_vertex";  ///< of the registry (similarity/shape_similarity.h)
-  OptionMap similarity_options;
   double deformation_threshold = 0.25;  ///< a tile deformed by more is replaced if that helps
   double gap_threshold_m = 4.0;         ///< or one with a larger mean gap to its neighbours
   int candidates = 5;                   ///< the most similar ones that are tried
   int max_rounds = 10;
+  static constexpr auto fields() {
+    using O = ReplacementOptions;
+    return std::tuple{
+        Field{"deformation_threshold", &O::deformation_threshold, 0.0, 1e3,
+              "A tile deformed by more gives way to a similar one if that lowers the total error."},
+        Field{"gap_threshold_m", &O::gap_threshold_m, 0.0, 1e4,
+              "So does a tile with a larger mean gap to its neighbours."},
+        Field{"candidates", &O::candidates, 1, 1000, "How many of the most similar are tried."},
+        Field{"max_rounds", &O::max_rounds, 1, 1000, "Rounds of replacing and solving."}};
+  }
+};
+
+/// What a pasted tile does while its neighbours make room.
+enum class PastedTiles {
+  kHeld,  ///< keeps its size and shape
+  kFree,  ///< is solved as its neighbours are: it may be turned, scaled and deformed
 };
 
 struct ReconfigurationOptions {
   SolverOptions solver;
   /// Tiles farther than this from what an operation moves stay where they are; none: all are free.
   std::optional<double> reach_m = 400.0;
+  PastedTiles pasted = PastedTiles::kHeld;
+  std::string similarity = "affine_vertex";  ///< of the registry (similarity/shape_similarity.h)
+  OptionMap similarity_options;
   std::optional<ReplacementOptions> replacement;  ///< none: nothing is replaced
+  static constexpr auto fields() {
+    using O = ReconfigurationOptions;
+    return std::tuple{
+        OptionalField{"reach_m", &O::reach_m, 0.0, 1e6,
+                      "Tiles farther than this from what an operation moves stay where they are."},
+        EnumField{"pasted",
+                  &O::pasted,
+                  {EnumName<PastedTiles>{"held", PastedTiles::kHeld},
+                   EnumName<PastedTiles>{"free", PastedTiles::kFree}},
+                  "Whether pasted tiles keep their shape while others make room."}};
+  }
 };
 
 /// What an operation did.
@@ -56,31 +85,43 @@ struct TileGroup {
   TileLayout tiles;  ///< vertices and links within the group
 };
 
+/// The zone of land that tiles were cut from.
+inline constexpr std::string_view kVacantZone = "vacant";
+
 /// What becomes of land that tiles leave.
 enum class VacatedLand {
   kVacant,  ///< a tile without zone stays in the place
   kClosed,  ///< the neighbours draw together over it
 };
 
-/// All operations: a failure changes nothing; kUnknownEntity for an id that no tile has;
-/// kTilesOverlap where tiles would overlap or be turned inside out; kOutOfRange for a map that is
-/// not finite. The result is a layout with all its invariants; tiles of a block are a coverage.
+/// All operations: a failure changes nothing; kUnknownEntity for an id that no tile has, or where
+/// none is named; kTilesOverlap where tiles would overlap or be turned inside out; kOutOfRange for
+/// a map that is not finite or mirrors. The result is a layout with all its invariants; tiles of a
+/// block are a coverage. Same input, same bytes.
 
 /// Moves tiles by a map of the plane (a translation, a rotation) and pins them there; the others
-/// make room.
+/// make room. The identity pins them where they are, and solves nothing.
 Expected<Reconfiguration> move_tiles(const TileLayout& layout, std::span<const TileId> tiles,
                                      const Affine& motion, const ReconfigurationOptions& options);
 
 /// Solves again with the pins as they are.
 Expected<Reconfiguration> relax(const TileLayout& layout, const ReconfigurationOptions& options);
 
+/// Lets pinned tiles go; nothing moves before the next operation.
+Expected<TileLayout> unpin_tiles(const TileLayout& layout, std::span<const TileId> tiles);
+
+/// Tiles with what they share among themselves, as they are; pins are not copied.
 Expected<TileGroup> copy_tiles(const TileLayout& layout, std::span<const TileId> tiles);
 
+/// Takes tiles away. Vacated land is a tile of zone kVacantZone without source; closed land draws
+/// its neighbours together, whose vertices are merged pairwise. Fails with kNoPlace where no two
+/// sides of a tile can be laid on each other.
 Expected<Reconfiguration> cut_tiles(const TileLayout& layout, std::span<const TileId> tiles,
                                     VacatedLand land, const ReconfigurationOptions& options);
 
 /// Puts a group down where `to` carries it: it takes the place of the most similar tile or union of
-/// tiles there, and inherits what they were joined to.
+/// tiles there, in the position and orientation that match it best, and inherits what they were
+/// joined to. Fails with kNoPlace where less than half of it would lie on tiles.
 Expected<Reconfiguration> paste_tiles(const TileLayout& layout, const TileGroup& group,
                                       const Affine& to, const ReconfigurationOptions& options);
 
