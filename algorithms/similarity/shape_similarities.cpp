@@ -1,3 +1,5 @@
+#include "similarity/box_similarity.h"
+#include "similarity/descriptor_similarity.h"
 #include "similarity/shape_similarity.h"
 
 namespace plat::similarity {
@@ -5,6 +7,8 @@ namespace plat::similarity {
 const Registry<AnyShapeSimilarity>& shape_similarities() {
   static const Registry<AnyShapeSimilarity> kMenu = [] {
     Registry<AnyShapeSimilarity> all;
+    all.add<BoxSimilarity>();
+    all.add<DescriptorSimilarity>();
     return all;
   }();
   return kMenu;
