@@ -1,16 +1,16 @@
 #include "geodata/dataset_catalogue.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <array>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/failure.h"
 #include "core/options.h"
+#include "core/sha256.h"
 #include "geodata/catalogue_internal.h"
 
 namespace plat::geodata {
@@ -126,18 +126,11 @@ std::string sha256_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
     throw InputError(fmt::format("{}: cannot be read; check its permissions", file.string()));
-  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> digest(EVP_MD_CTX_new(),
-                                                                       &EVP_MD_CTX_free);
-  expects(EVP_DigestInit_ex(digest.get(), EVP_sha256(), nullptr) == 1, "SHA-256 is available");
+  Sha256 hash;
   std::array<char, 1U << 16U> buffer{};
   while (in.read(buffer.data(), buffer.size()) || in.gcount() > 0)
-    EVP_DigestUpdate(digest.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
-  std::array<unsigned char, EVP_MAX_MD_SIZE> value{};
-  unsigned int size = 0;
-  EVP_DigestFinal_ex(digest.get(), value.data(), &size);
-  std::string hex;
-  for (unsigned int i = 0; i < size; ++i) hex += fmt::format("{:02x}", value[i]);
-  return hex;
+    hash.add(std::as_bytes(std::span(buffer).first(static_cast<std::size_t>(in.gcount()))));
+  return to_hex(hash.digest());
 }
 
 }  // namespace detail

@@ -62,7 +62,7 @@ TEST(CandidateSearch, LooksOnlyIntoTheClusterOfTheNearestRepresentative) {
   // Two clusters; the nearest rectangle of all is a member of the farther one.
   const std::vector<LabelledShape> shapes{rectangle(10, 10), rectangle(10, 11), rectangle(10, 24),
                                           rectangle(10, 50), rectangle(10, 51), rectangle(10, 31)};
-  const Clusters clusters{{0, 0, 0, 1, 1, 1}, {{0, 1, 2}, {3, 4, 5}}};
+  const Clusters clusters{{1, 1, 1, 0, 0, 0}, {{3, 4, 5}, {0, 1, 2}}};
   const CandidateSearch search(shapes, clusters, made_measure());
   const LabelledShape place = rectangle(10, 29);
   const auto one = search.most_similar(place, {.count = 1, .clusters = 1});

@@ -71,6 +71,17 @@ TEST(WeightedKMeans, HasNoEmptyClusterAndAsManyAsAskedForOrAsDifferentRows) {
   EXPECT_GT(fewer_rows, 10);
 }
 
+TEST(WeightedKMeans, AClusterThatLosesItsRowsTakesAnother) {
+  // From the seeds (3, 1), (1, 1), (0, 2), which k-means++ rarely draws, the second loses all rows.
+  const NumberTable table{2, {6, 11, 4, 3, 3, 1, 1, 1, 0, 2, 2, 11}};
+  for (std::uint64_t seed = 0; seed < 50000; ++seed) {
+    Rng rng(seed);
+    const auto found = weighted_k_means(table, Weights{1, 1}, 3, rng);
+    ASSERT_EQ(found.clusters.members.size(), 3U);
+    for (const auto& members : found.clusters.members) ASSERT_FALSE(members.empty()) << seed;
+  }
+}
+
 TEST(WeightedKMeans, SumOfSquaresNeverRises) {
   Rng rng = testing::property_rng("WeightedKMeansSum");
   std::size_t steps = 0;
