@@ -8,7 +8,7 @@ set -euo pipefail
 run_packages=(
   g++ cmake ninja-build pkg-config ccache mold git ca-certificates
   libboost-dev libcgal-dev libcli11-dev libexpected-dev libfmt-dev libgdal-dev libgeos-dev libgmp-dev libmpfr-dev
-  libcairo2-dev libopenmesh-dev libssl-dev libtbb-dev libtinygltf-dev nlohmann-json3-dev
+  libcairo2-dev libeigen3-dev libopenmesh-dev libssl-dev libtbb-dev libtinygltf-dev nlohmann-json3-dev
   gdal-bin povray python3 python3-matplotlib python3-pandas python3-geopandas)
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev clang-format-19

@@ -32,7 +32,7 @@ struct SolverOptions {
 struct LayoutSolution {
   std::vector<Affine> placements;    ///< per tile, from rest
   std::vector<double> gaps_m;        ///< per joint: distance of the two points
-  std::vector<double> deformations;  ///< per tile: how far the map is from a similarity
+  std::vector<double> deformations;  ///< per tile: difference of the map's singular values, (3)
   double mean_property_gap_m = 0.0;
   double mean_street_gap_m = 0.0;
   double mean_deformation = 0.0;
@@ -40,13 +40,19 @@ struct LayoutSolution {
 };
 
 /// Finds the affine maps of all tiles that leave the least weighted sum of squared gaps and
-/// deformations, some tiles held in place: the linear least squares of [ABVA08, Sec. 4.1]. The
-/// factorisation depends on which tiles are held, not on where: dragging them is a solve with
-/// another right-hand side.
+/// deformations, some tiles held in place. The factorisation depends on which tiles are held, not
+/// on where: dragging them is a solve with another right-hand side.
 ///
-/// Guarantees: 1. no placement holds a NaN or an infinity;  2. tiles that no joints connect to a
-/// held tile stay where `resting` has them;  3. a rigid motion of all held tiles moves everything
-/// rigidly, with no error;  4. the same input gives the same bytes.
+/// Guarantees: 1. no placement holds a NaN or an infinity;  2. tiles that no joints with a weight
+/// connect to a held tile stay where `resting` has them;  3. a rigid motion of all held tiles moves
+/// everything that they are connected to rigidly, with no error;  4. the same input gives the same
+/// bytes, from a kept factorisation as from a fresh one.
+/// Complexity:    factorisation O(n^1.5) and solve O(n log n) of n tiles that lie in the plane
+/// Paper:         [ABVA08, Sec. 4.1, (1) and (3)]; `rigidity` is its global weight
+/// Deviation:     (2) as printed holds neighbour k in place (it drops M_k) and adds c_i + d_ij
+///                twice: solved is (1), both tiles free; deformations are multiplied by the tile's
+///                radius, so that all residuals are in metres; held tiles are eliminated; what
+///                joints leave free of a tile's map is taken from its neighbours (ADR 0038)
 class LayoutSolver {
  public:
   /// Factorises. `held`: indices of tiles, ascending, each once.
