@@ -33,6 +33,7 @@ LayoutEquations::LayoutEquations(const TileGraph& graph, const SolverOptions& op
     : graph_(&graph),
       rigidity_(options.rigidity),
       street_weight_(options.street_weight),
+      keep_size_(options.keep_size),
       reach_m_(reaches_m(graph)) {}
 
 void LayoutEquations::set_state(State& state, std::uint32_t tile, const Affine& placement) const {
@@ -87,6 +88,20 @@ Equation LayoutEquations::deformation(std::uint32_t tile) const {
   out.terms[0] = {tile * kUnknownsPerTile + 2, 2.0 * graph_->tiles[tile].radius_m / reach_m_[tile]};
   out.size = 1;
   return out;
+}
+
+Equation LayoutEquations::size(std::uint32_t tile) const {
+  Equation out;
+  out.weight = rigidity_ * keep_size_;
+  out.terms[0] = {tile * kUnknownsPerTile + 1, 2.0 * graph_->tiles[tile].radius_m / reach_m_[tile]};
+  out.size = 1;
+  return out;
+}
+
+Complex LayoutEquations::size_wish(const State& state, std::uint32_t tile) const {
+  const Complex a = state[static_cast<Eigen::Index>(tile) * kUnknownsPerTile + 1];
+  const double norm = std::abs(a);
+  return 2.0 * graph_->tiles[tile].radius_m * (norm > 0.0 ? a / norm : Complex(1.0));
 }
 
 }  // namespace plat::tiles::detail

@@ -60,6 +60,13 @@ class LayoutEquations {
   void set_state(State& state, std::uint32_t tile, const Affine& placement) const;
   [[nodiscard]] Affine placement(const State& state, std::uint32_t tile) const;
 
+  /// Whether size is anything to any tile.
+  [[nodiscard]] bool has_size() const { return rigidity_ * keep_size_ > 0.0; }
+  /// What the tile's `a` is measured by, and what it should then be: the rotation that the state
+  /// has for the tile, at the tile's size. Not homogeneous, so not among those of for_each.
+  [[nodiscard]] Equation size(std::uint32_t tile) const;
+  [[nodiscard]] Complex size_wish(const State& state, std::uint32_t tile) const;
+
   /// Calls visit(const Equation&) for gaps, common maps and deformations, in this order.
   template <class Visit>
   void for_each(Visit visit) const {
@@ -83,6 +90,7 @@ class LayoutEquations {
   const TileGraph* graph_;
   double rigidity_;
   double street_weight_;
+  double keep_size_;
   std::vector<double> reach_m_;  ///< per tile
 };
 

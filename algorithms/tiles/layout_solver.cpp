@@ -73,6 +73,9 @@ std::optional<Failure> find_defect(const SolverOptions& options) {
   if (!(options.street_weight >= 0.0 && std::isfinite(options.street_weight)))
     return Failure{FailureCode::kOutOfRange,
                    fmt::format("street_weight {}, allowed >= 0", options.street_weight)};
+  if (!(options.keep_size >= 0.0 && options.keep_size <= 1.0))
+    return Failure{FailureCode::kOutOfRange,
+                   fmt::format("keep_size {}, allowed 0 to 1", options.keep_size)};
   return std::nullopt;
 }
 
@@ -143,6 +146,10 @@ LayoutSolution measured(const TileGraph& graph, const LayoutEquations& equations
   equations.for_each([&](const Equation& equation) {
     out.objective += equation.weight * std::norm(equation.residual(state));
   });
+  for (std::uint32_t i = 0; i < placements.size() && equations.has_size(); ++i) {
+    const Equation size = equations.size(i);
+    out.objective += size.weight * std::norm(size.residual(state) - equations.size_wish(state, i));
+  }
   out.gaps_m.reserve(graph.joints.size());
   double property_joints = 0.0;
   double street_joints = 0.0;
@@ -172,6 +179,8 @@ bool is_sound(const LayoutSolution& solution) {
 }  // namespace
 
 struct LayoutSolver::System {
+  using Factor = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
+
   System(TileGraph g, std::vector<std::uint32_t> h, const SolverOptions& options)
       : graph(std::move(g)), held(std::move(h)), equations(graph, options) {}
 
@@ -181,7 +190,8 @@ struct LayoutSolver::System {
   std::vector<char> is_reached;  ///< per tile: from a held one
   std::vector<int> column;       ///< per unknown of the state; -1 where it is given
   Eigen::Index columns = 0;
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor;
+  Factor factor;        ///< of the paper's equations
+  Factor sized_factor;  ///< with those of size, where they have a weight
 
   void number_unknowns() {
     is_reached = reached_from(held, graph, equations);
@@ -191,6 +201,29 @@ struct LayoutSolver::System {
       for (std::uint32_t part = 0; part < kUnknownsPerTile; ++part)
         column.push_back(free != 0 ? static_cast<int>(columns++) : -1);
     }
+  }
+
+  [[nodiscard]] bool is_free(std::uint32_t tile) const {
+    return column[tile * kUnknownsPerTile] >= 0;
+  }
+
+  /// @returns whether there is a factorisation
+  bool factorise() {
+    Matrix matrix = normal_matrix();
+    // A negative or vanishing pivot is a system that rounding has made singular.
+    const auto succeeds = [&](Factor& out) {
+      out.compute(matrix);
+      return out.info() == Eigen::Success && out.vectorD().real().minCoeff() > 0.0;
+    };
+    if (!succeeds(factor)) return false;
+    if (!equations.has_size()) return true;
+    for (std::uint32_t i = 0; i < graph.tiles.size(); ++i) {
+      if (!is_free(i)) continue;
+      const Equation size = equations.size(i);
+      const int a = column[size.terms[0].unknown];
+      matrix.coeffRef(a, a) += size.weight * std::norm(size.terms[0].coefficient);
+    }
+    return succeeds(sized_factor);
   }
 
   /// The lower triangle of the normal equations.
@@ -212,7 +245,7 @@ struct LayoutSolver::System {
     return out;
   }
 
-  /// Down the gradient of half the objective.
+  /// Down the gradient of half the paper's objective.
   [[nodiscard]] State descent(const State& state) const {
     State out = State::Zero(columns);
     equations.for_each([&](const Equation& equation) {
@@ -224,6 +257,37 @@ struct LayoutSolver::System {
     });
     return out;
   }
+
+  /// That of size, with every tile's wish.
+  void add_descent_of_size(const State& state, std::span<const Complex> wishes, State& out) const {
+    for (std::uint32_t i = 0; i < graph.tiles.size(); ++i) {
+      if (!is_free(i)) continue;
+      const Equation size = equations.size(i);
+      const Term& term = size.terms[0];
+      out[column[term.unknown]] -=
+          std::conj(term.coefficient) * size.weight * (size.residual(state) - wishes[i]);
+    }
+  }
+
+  void step(State& state, const State& by) const {
+    for (std::size_t u = 0; u < column.size(); ++u) {
+      if (column[u] >= 0) state[static_cast<Eigen::Index>(u)] += by[column[u]];
+    }
+  }
+
+  void minimise(State& state) const {
+    if (columns == 0) return;
+    for (int round = 0; round <= kRefinements; ++round) step(state, factor.solve(descent(state)));
+    if (!equations.has_size()) return;
+    std::vector<Complex> wishes;
+    for (std::uint32_t i = 0; i < graph.tiles.size(); ++i)
+      wishes.push_back(equations.size_wish(state, i));
+    for (int round = 0; round <= kRefinements; ++round) {
+      State down = descent(state);
+      add_descent_of_size(state, wishes, down);
+      step(state, sized_factor.solve(down));
+    }
+  }
 };
 
 Expected<LayoutSolver> LayoutSolver::make(TileGraph graph, std::vector<std::uint32_t> held,
@@ -233,15 +297,10 @@ Expected<LayoutSolver> LayoutSolver::make(TileGraph graph, std::vector<std::uint
   if (auto defect = find_defect(options)) return tl::unexpected(*defect);
   auto system = std::make_shared<System>(std::move(graph), std::move(held), options);
   system->number_unknowns();
-  if (system->columns > 0) {
-    system->factor.compute(system->normal_matrix());
-    // A negative or vanishing pivot is a system that rounding has made singular.
-    if (system->factor.info() != Eigen::Success ||
-        !(system->factor.vectorD().real().minCoeff() > 0.0))
-      return fail(FailureCode::kNoConvergence,
-                  fmt::format("the layout's equations cannot be factorised: {} tiles, {} held",
-                              system->graph.tiles.size(), system->held.size()));
-  }
+  if (system->columns > 0 && !system->factorise())
+    return fail(FailureCode::kNoConvergence,
+                fmt::format("the layout's equations cannot be factorised: {} tiles, {} held",
+                            system->graph.tiles.size(), system->held.size()));
   return LayoutSolver(std::move(system));
 }
 
@@ -268,15 +327,9 @@ Expected<LayoutSolution> LayoutSolver::solve(std::span<const Affine> targets,
 
   State state(static_cast<Eigen::Index>(tiles * kUnknownsPerTile));
   for (std::uint32_t i = 0; i < tiles; ++i) system.equations.set_state(state, i, placements[i]);
-  for (int round = 0; round <= kRefinements && system.columns > 0; ++round) {
-    const State step = system.factor.solve(system.descent(state));
-    for (std::size_t u = 0; u < system.column.size(); ++u) {
-      if (system.column[u] >= 0) state[static_cast<Eigen::Index>(u)] += step[system.column[u]];
-    }
-  }
+  system.minimise(state);
   for (std::uint32_t i = 0; i < tiles; ++i) {
-    if (system.column[i * kUnknownsPerTile] >= 0)
-      placements[i] = system.equations.placement(state, i);
+    if (system.is_free(i)) placements[i] = system.equations.placement(state, i);
   }
   LayoutSolution out = measured(system.graph, system.equations, std::move(placements));
   if (!is_sound(out))

@@ -17,6 +17,7 @@ namespace plat::tiles {
 struct SolverOptions {
   double rigidity = 1.0;        ///< weight of deformation equations; 0: any affine map is free
   double street_weight = 0.25;  ///< of gaps across streets, against 1 of gaps between neighbours
+  double keep_size = 0.0;       ///< how much of rigidity is against growing and shrinking
   static constexpr auto fields() {
     using O = SolverOptions;
     return std::tuple{
@@ -24,7 +25,10 @@ struct SolverOptions {
               "Weight that keeps tiles from being deformed, against gaps; large: rigid, small: "
               "affine."},
         Field{"street_weight", &O::street_weight, 0.0, 1.0,
-              "Weight of gaps across streets, against 1 of gaps between neighbours."}};
+              "Weight of gaps across streets, against 1 of gaps between neighbours."},
+        Field{"keep_size", &O::keep_size, 0.0, 1.0,
+              "Share of rigidity that is against growing and shrinking; 0: size is free, as in the "
+              "paper; 1: large rigidity is rigid."}};
   }
 };
 
@@ -36,7 +40,7 @@ struct LayoutSolution {
   double mean_property_gap_m = 0.0;
   double mean_street_gap_m = 0.0;
   double mean_deformation = 0.0;
-  double objective = 0.0;  ///< the sum of squares that was minimised
+  double objective = 0.0;  ///< the weighted sum of squares
 };
 
 /// Finds the affine maps of all tiles that leave the least weighted sum of squared gaps and
@@ -52,7 +56,9 @@ struct LayoutSolution {
 /// Deviation:     (2) as printed holds neighbour k in place (it drops M_k) and adds c_i + d_ij
 ///                twice: solved is (1), both tiles free; deformations are multiplied by the tile's
 ///                radius, so that all residuals are in metres; held tiles are eliminated; what
-///                joints leave free of a tile's map is taken from its neighbours (ADR 0038)
+///                joints leave free of a tile's map is taken from its neighbours; (3) lets tiles
+///                grow: `keep_size` asks in a second linear solution for the rotations of the first
+///                one, at the tiles' own size (ADR 0038)
 class LayoutSolver {
  public:
   /// Factorises. `held`: indices of tiles, ascending, each once.

@@ -164,7 +164,8 @@ TEST(LayoutSolverDegenerate, TinyTilesAndFarJointsLeaveNoNaN) {
       if (rng.index(4) == 0) joint.rest_a = joint.rest_b = graph.tiles[joint.a].centroid;
     }
     std::erase_if(graph.joints, [&](const Joint&) { return rng.index(4) == 0; });
-    const SolverOptions options{rng.index(2) == 0 ? 0.0 : 1e4, rng.index(2) == 0 ? 1e-6 : 1.0};
+    const SolverOptions options{rng.index(2) == 0 ? 0.0 : 1e4, rng.index(2) == 0 ? 1e-6 : 1.0,
+                                rng.index(2) == 0 ? 0.0 : 1.0};
     const auto solver = LayoutSolver::make(graph, {0, 17}, options);
     if (!solver) continue;
     const Affine motion = Affine::rotation(0.5, {20, 20});
@@ -186,6 +187,7 @@ TEST(LayoutSolverDegenerate, WhatIsOutOfRangeIsAFailure) {
   EXPECT_EQ(code_of(LayoutSolver::make(good, {0}, {-1.0, 0.25})), FailureCode::kOutOfRange);
   EXPECT_EQ(code_of(LayoutSolver::make(good, {0}, {kNaN, 0.25})), FailureCode::kOutOfRange);
   EXPECT_EQ(code_of(LayoutSolver::make(good, {0}, {1.0, kInfinity})), FailureCode::kOutOfRange);
+  EXPECT_EQ(code_of(LayoutSolver::make(good, {0}, {1.0, 1.0, 1.5})), FailureCode::kOutOfRange);
   for (const double radius_m : {0.0, -1.0, kNaN, kInfinity}) {
     TileGraph bad = good;
     bad.tiles[1].radius_m = radius_m;

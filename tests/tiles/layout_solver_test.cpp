@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -91,7 +92,8 @@ std::vector<std::uint32_t> random_held(Rng& rng, const TileGraph& graph) {
 SolverOptions random_options(Rng& rng) {
   constexpr double kRigidities[] = {0.0, 0.01, 1.0, 100.0, 1e4};
   constexpr double kStreetWeights[] = {0.0, 0.01, 0.25, 1.0};
-  return {kRigidities[rng.index(5)], kStreetWeights[rng.index(4)]};
+  return {kRigidities[rng.index(5)], kStreetWeights[rng.index(4)],
+          0.5 * static_cast<double>(rng.index(3))};
 }
 
 /// The paper's system as it stands, six real unknowns per tile, by a dense QR: rows of (1) and (3),
@@ -113,13 +115,32 @@ class DenseOracle {
   }
 
   /// Placements of held tiles and of those without connection are given.
-  std::vector<Affine> solve(std::vector<Affine> given, const std::vector<char>& is_given) {
+  std::vector<Affine> solve(const std::vector<Affine>& given, const std::vector<char>& is_given) {
+    std::vector<Affine> out = solve_once(given, is_given, {});
+    return options_.keep_size > 0.0 ? solve_once(given, is_given, out) : out;
+  }
+
+ private:
+  using Row = std::vector<std::pair<std::uint32_t, double>>;
+
+  /// @param turned  whose rotations the tiles are to have at their own size; empty: any size will
+  /// do
+  std::vector<Affine> solve_once(std::vector<Affine> given, const std::vector<char>& is_given,
+                                 const std::vector<Affine>& turned) {
     rows_.clear();
+    wishes_.clear();
     for (const Joint& joint : graph_.joints) add_joint(joint);
     for (std::uint32_t i = 0; i < graph_.tiles.size(); ++i) {
       const double w = std::sqrt(options_.rigidity) * graph_.tiles[i].radius_m;
       rows_.push_back({{6 * i + 2, w}, {6 * i + 5, -w}});
       rows_.push_back({{6 * i + 3, w}, {6 * i + 4, w}});
+      if (turned.empty()) continue;
+      const double angle_rad = std::atan2(turned[i].yx - turned[i].xy, turned[i].xx + turned[i].yy);
+      const double size = w * std::sqrt(options_.keep_size);
+      wishes_[rows_.size()] = 2.0 * size * std::cos(angle_rad);
+      rows_.push_back({{6 * i + 2, size}, {6 * i + 5, size}});
+      wishes_[rows_.size()] = 2.0 * size * std::sin(angle_rad);
+      rows_.push_back({{6 * i + 4, size}, {6 * i + 3, -size}});
     }
     Eigen::VectorXd x(6 * static_cast<Eigen::Index>(given.size()));
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -136,9 +157,6 @@ class DenseOracle {
     }
     return given;
   }
-
- private:
-  using Row = std::vector<std::pair<std::uint32_t, double>>;
 
   void add_joint(const Joint& joint) {
     const double weight = joint.kind == JointKind::kStreet ? options_.street_weight : 1.0;
@@ -170,6 +188,7 @@ class DenseOracle {
     if (columns == 0) return;
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), columns);
     Eigen::VectorXd b = Eigen::VectorXd::Zero(a.rows());
+    for (const auto& [row, wish] : wishes_) b[static_cast<Eigen::Index>(row)] = wish;
     for (Eigen::Index r = 0; r < a.rows(); ++r) {
       for (const auto& [unknown, value] : rows_[static_cast<std::size_t>(r)]) {
         if (column[unknown] >= 0) a(r, column[unknown]) += value;
@@ -186,6 +205,7 @@ class DenseOracle {
   SolverOptions options_;
   std::vector<double> reach_m_;
   std::vector<Row> rows_;
+  std::map<std::size_t, double> wishes_;  ///< right-hand sides that are not zero
 };
 
 /// Which tiles are given: held, or not connected to a held one.
@@ -242,9 +262,10 @@ TEST(LayoutSolver, RigidMotionOfAllHeldTilesMovesEverythingRigidly) {
   Rng rng = property_rng("RigidMotion");
   for (int i = 0; i < iterations(20); ++i) {
     const Affine motion = random_similarity(rng, 1000.0);
-    for (const double rigidity : {0.0, 1.0, 1e4}) {
+    for (const auto& [rigidity, keep_size] :
+         {std::pair{0.0, 0.0}, {1.0, 0.0}, {1e4, 0.0}, {1.0, 1.0}}) {
       const LayoutSolution solution =
-          solved(city.graph, city.held, {motion, motion, motion}, {rigidity, 0.25});
+          solved(city.graph, city.held, {motion, motion, motion}, {rigidity, 0.25, keep_size});
       EXPECT_LT(difference_m(city.graph, solution.placements,
                              std::vector<Affine>(city.graph.tiles.size(), motion)),
                 kRounding_m);
@@ -373,6 +394,43 @@ TEST(LayoutSolver, TurnedMirroredAndScaledProblemsHaveTurnedMirroredAndScaledSol
                 1e-6 * factor * factor * straight.objective);
     EXPECT_NEAR(twin.mean_deformation, straight.mean_deformation, 1e-6);
   }
+}
+
+/// The city's west and east pulled apart.
+LayoutSolution stretched(const SolverOptions& options) {
+  const TileGraph graph = graph_of(MadeCity{.blocks_x = 5});
+  std::vector<std::uint32_t> held;
+  std::vector<Affine> targets;
+  for (std::uint32_t i = 0; i < graph.tiles.size(); ++i) {
+    const std::uint32_t column = i / 10 % 5;
+    if (column != 0 && column != 4) continue;
+    held.push_back(i);
+    targets.push_back(Affine::translation({column == 0 ? -30.0 : 30.0, 0.0}));
+  }
+  return solved(graph, held, targets, options);
+}
+
+/// Root mean square over the tiles of how far their size is from what it was.
+double size_change(const LayoutSolution& solution) {
+  double sum = 0.0;
+  for (const Affine& map : solution.placements) {
+    const double change = 0.5 * std::hypot(map.xx + map.yy, map.yx - map.xy) - 1.0;
+    sum += change * change;
+  }
+  return std::sqrt(sum / static_cast<double>(solution.placements.size()));
+}
+
+TEST(LayoutSolver, TilesGrowUnderAStretchUnlessTheyAreToKeepTheirSize) {
+  const double free = size_change(stretched({1e3, 0.25, 0.0}));
+  EXPECT_GT(free, 0.05);
+  EXPECT_LT(size_change(stretched({1e3, 0.25, 0.1})), 0.1 * free);
+  EXPECT_LT(size_change(stretched({1e3, 0.25, 1.0})), 0.01 * free);
+}
+
+TEST(LayoutSolver, KeepingSizeIsAskedInProportionToRigidity) {
+  const LayoutSolution free = stretched({0.0, 0.25, 0.0});
+  EXPECT_EQ(stretched({0.0, 0.25, 1.0}).placements, free.placements);
+  EXPECT_LT(size_change(stretched({10.0, 0.25, 1.0})), size_change(stretched({1.0, 0.25, 1.0})));
 }
 
 TEST(LayoutSolver, LargerRigidityTradesDeformationForGaps) {
