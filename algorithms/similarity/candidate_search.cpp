@@ -1,6 +1,7 @@
 #include "similarity/candidate_search.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace plat::similarity {
@@ -20,24 +21,14 @@ struct CandidateSearch::Query {
 
 CandidateSearch::CandidateSearch(std::span<const LabelledShape> shapes, const Clusters& clusters,
                                  AnyShapeSimilarity measure, Jobs jobs)
-    : measure_(std::move(measure)), prepared_(shapes.size()), members_(clusters.members.size()) {
+    : measure_(std::move(measure)),
+      prepared_(prepare_all(shapes, measure_, jobs)),
+      members_(clusters.members.size()) {
   expects(clusters.cluster_of.size() == shapes.size(), "a cluster per shape");
-  std::vector<std::optional<Failure>> failures(shapes.size());
-  parallel_for(shapes.size(), jobs, [&](std::size_t i) {
-    auto prepared = measure_.prepare(shapes[i]);
-    if (prepared) {
-      prepared_[i] = std::move(*prepared);
-    } else {
-      failures[i] = std::move(prepared.error());
-    }
-  });
-  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-    zones_.push_back(shapes[i].zone);
-    if (failures[i]) failures_.push_back({i, std::move(*failures[i])});
-  }
+  for (const LabelledShape& shape : shapes) zones_.push_back(shape.zone);
   for (std::size_t k = 0; k < members_.size(); ++k) {
     for (const std::uint32_t i : clusters.members[k]) {
-      if (prepared_[i]) members_[k].push_back(i);
+      if (prepared_.shapes[i]) members_[k].push_back(i);
     }
   }
 }
@@ -57,7 +48,7 @@ Expected<std::vector<Candidate>> CandidateSearch::most_similar(
   if (options.zones == ZoneRule::kSame && !place.zone.empty()) query.zone = place.zone;
 
   const auto distance_to = [&](std::uint32_t shape) {
-    return measure_.distance(*prepared_[shape], query.place);
+    return measure_.distance(*prepared_.shapes[shape], query.place);
   };
   std::vector<Candidate> order;  // clusters, by their representatives
   for (std::uint32_t k = 0; k < members_.size(); ++k) {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include "core/options.h"
 #include "core/parallel.h"
 #include "similarity/labelled_shape.h"
+#include "similarity/prepared_shapes.h"
 #include "similarity/shape_similarity.h"
 #include "similarity/weighted_k_means.h"
 
@@ -48,12 +48,6 @@ struct Candidate {
   friend bool operator==(const Candidate&, const Candidate&) = default;
 };
 
-/// A shape that the measure cannot prepare, and why.
-struct ShapeFailure {
-  std::uint32_t shape = 0;
-  Failure failure;
-};
-
 /// Finds the shapes that are most like a place that may be none of them: a deformed tile, an empty
 /// lot.
 ///
@@ -78,7 +72,7 @@ class CandidateSearch {
       const LabelledShape& place, const CandidateOptions& options,
       std::span<const std::uint32_t> excluded = {}) const;
 
-  [[nodiscard]] const std::vector<ShapeFailure>& failures() const { return failures_; }
+  [[nodiscard]] const std::vector<ShapeFailure>& failures() const { return prepared_.failures; }
   [[nodiscard]] const AnyShapeSimilarity& measure() const { return measure_; }
 
  private:
@@ -86,10 +80,9 @@ class CandidateSearch {
   [[nodiscard]] bool is_allowed(std::uint32_t shape, const Query& query) const;
 
   AnyShapeSimilarity measure_;
-  std::vector<std::optional<AnyPreparedShape>> prepared_;
+  PreparedShapes prepared_;
   std::vector<std::string> zones_;
   std::vector<std::vector<std::uint32_t>> members_;  // prepared ones, the representative first
-  std::vector<ShapeFailure> failures_;
 };
 
 }  // namespace plat::similarity
