@@ -17,9 +17,13 @@ using plat::testing::TwinMeasure;
 using plat::testing::why_not_in_contract;
 using plat::testing::why_wrong_shapes_pass;
 
+/// The outline, or its beginning.
 std::string text_of(const LabelledShape& shape) {
-  std::string out;
-  for (const Point p : shape.polygon.outer) out += fmt::format("{{{}, {}}}, ", p.x, p.y);
+  constexpr std::size_t kShown = 12;
+  const Ring& ring = shape.polygon.outer;
+  std::string out = fmt::format("{} vertices: ", ring.size());
+  for (std::size_t i = 0; i < std::min(kShown, ring.size()); ++i)
+    out += fmt::format("{{{}, {}}}, ", ring[i].x, ring[i].y);
   return out;
 }
 
