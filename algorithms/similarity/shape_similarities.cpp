@@ -1,5 +1,6 @@
 #include "similarity/box_similarity.h"
 #include "similarity/descriptor_similarity.h"
+#include "similarity/shape_context_similarity.h"
 #include "similarity/shape_similarity.h"
 
 namespace plat::similarity {
@@ -9,6 +10,7 @@ const Registry<AnyShapeSimilarity>& shape_similarities() {
     Registry<AnyShapeSimilarity> all;
     all.add<BoxSimilarity>();
     all.add<DescriptorSimilarity>();
+    all.add<ShapeContextSimilarity>();
     return all;
   }();
   return kMenu;

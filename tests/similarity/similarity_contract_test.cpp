@@ -91,7 +91,7 @@ class SimilarityContract : public ::testing::TestWithParam<std::string> {};
 TEST_P(SimilarityContract, HoldsOnRandomShapes) {
   const AnyShapeSimilarity measure = shape_similarities().make(GetParam());
   Rng rng = property_rng("SimilarityContract.Shapes");
-  const int pairs = iterations(200);
+  const int pairs = iterations(100);
   int prepared = 0;
   for (int i = 0; i < pairs; ++i) {
     const LabelledShape a = made_shape(rng);
@@ -138,7 +138,7 @@ OptionValue random_value(Rng& rng, const FieldDescription& field) {
 TEST_P(SimilarityContract, HoldsForAnyOptions) {
   const auto& entry = shape_similarities().at(GetParam());
   Rng rng = property_rng("SimilarityContract.Options");
-  for (int i = 0; i < iterations(100); ++i) {
+  for (int i = 0; i < iterations(60); ++i) {
     OptionMap options;
     for (const FieldDescription& field : entry.fields)
       if (rng.index(2) == 0) options[field.name] = random_value(rng, field);
