@@ -14,6 +14,7 @@ using Action = std::function<ExitStatus()>;
 void add_data_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);
 void add_blocks_command(CLI::App& app, Action& action);
+void add_tiles_command(CLI::App& app, Action& action);
 void add_exemplar_command(CLI::App& app, Action& action);
 void add_subdivide_command(CLI::App& app, Action& action);
 void add_edit_command(CLI::App& app, Action& action);

@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
   plat::cli::add_list_command(app, action);
   plat::cli::add_data_command(app, action);
   plat::cli::add_blocks_command(app, action);
+  plat::cli::add_tiles_command(app, action);
   plat::cli::add_exemplar_command(app, action);
   plat::cli::add_subdivide_command(app, action);
   plat::cli::add_synthesize_command(app, action);
