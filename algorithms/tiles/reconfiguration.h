@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/affine.h"
@@ -83,6 +85,9 @@ struct Reconfiguration {
 /// Tiles by value, with where they were: what copy takes and paste puts down.
 struct TileGroup {
   TileLayout tiles;  ///< vertices and links within the group
+  /// Edges, by their two vertices in the order of their tile's ring, beyond which a tile lay that
+  /// is not of the group; sorted. The other edges of the outline face streets.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> property_edges;
 };
 
 /// The zone of land that tiles were cut from.

@@ -1,0 +1,176 @@
+#include "tiles/tile_destination_internal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "tiles/reconfiguration_internal.h"
+#include "tiles/tile_outline_internal.h"
+
+namespace plat::tiles::detail {
+namespace {
+
+/// Points across the piece's box, each way, by which it is seen what it lies on.
+constexpr int kSamplesAcross = 16;
+/// Less of a piece on tiles is a paste on a street, on water or across a border.
+constexpr double kOnTiles_01 = 0.5;
+/// A union this many times as large as the piece is not grown further.
+constexpr double kMuchLarger = 1.5;
+
+similarity::LabelledShape labelled(const TileLayout& layout, std::span<const OutlineEdge> outline,
+                                   const TileGroup& group) {
+  similarity::LabelledShape out = shape_of(layout, outline, {});
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::pair edge{outline[i].vertex, outline[(i + 1) % outline.size()].vertex};
+    if (std::ranges::binary_search(group.property_edges, edge))
+      out.edges[i] = similarity::EdgeLabel::kProperty;
+  }
+  return out;
+}
+
+std::optional<Piece> piece_of(const TileGroup& group, const std::vector<std::uint32_t>& members) {
+  const auto outline = outline_of(group.tiles, members);
+  if (!outline) return std::nullopt;
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; i < group.tiles.tiles.size(); ++i) {
+    if (!std::ranges::binary_search(members, i)) others.push_back(i);
+  }
+  return Piece{without_tiles(group.tiles, others), labelled(group.tiles, *outline, group), members};
+}
+
+std::vector<Point> points_in(const Polygon& shape) {
+  std::vector<Point> out{interior_point(shape)};
+  const Box box = plat::box_of(shape);
+  for (int i = 0; i < kSamplesAcross; ++i) {
+    for (int j = 0; j < kSamplesAcross; ++j) {
+      const Point p{box.min.x + (i + 0.5) / kSamplesAcross * box.width(),
+                    box.min.y + (j + 0.5) / kSamplesAcross * box.height()};
+      if (locate(shape, p) == Side::kInside) out.push_back(p);
+    }
+  }
+  return out;
+}
+
+/// How many of the points lie on each tile.
+std::map<std::uint32_t, std::size_t> points_on(const TileLayout& layout,
+                                               const std::vector<Point>& points,
+                                               std::span<const TileId> kept) {
+  const Box around = plat::box_of(points);
+  std::map<std::uint32_t, std::size_t> out;
+  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
+    const Tile& tile = layout.tiles[i];
+    if (!box_of(layout, tile).intersects(around) || std::ranges::binary_search(kept, tile.id))
+      continue;
+    const Polygon shape = plat::tiles::shape_of(layout, tile);
+    const auto count = static_cast<std::size_t>(
+        std::ranges::count_if(points, [&](Point p) { return locate(shape, p) != Side::kOutside; }));
+    if (count > 0) out.emplace(i, count);
+  }
+  return out;
+}
+
+/// The tile under the centre, else the one under most of the piece.
+std::uint32_t seed_of(const TileLayout& layout, const std::map<std::uint32_t, std::size_t>& under,
+                      Point center) {
+  std::uint32_t best = under.begin()->first;
+  for (const auto& [tile, count] : under) {
+    if (locate(plat::tiles::shape_of(layout, layout.tiles[tile]), center) == Side::kInside)
+      return tile;
+    if (count > under.at(best)) best = tile;
+  }
+  return best;
+}
+
+/// The neighbour of the union that lies under most of the piece.
+std::optional<std::uint32_t> next_of(const std::set<std::uint32_t>& members, const EdgeMap& edges,
+                                     const std::map<std::uint32_t, std::size_t>& under) {
+  std::optional<std::uint32_t> best;
+  for (const auto& [edge, place] : edges) {
+    if (!members.contains(place.tile)) continue;
+    const auto beyond = edges.find({edge.second, edge.first});
+    if (beyond == edges.end() || members.contains(beyond->second.tile)) continue;
+    const std::uint32_t tile = beyond->second.tile;
+    const auto found = under.find(tile);
+    if (found == under.end()) continue;
+    if (!best || found->second > under.at(*best) ||
+        (found->second == under.at(*best) && tile < *best))
+      best = tile;
+  }
+  return best;
+}
+
+}  // namespace
+
+similarity::AnyShapeSimilarity measure_of(const ReconfigurationOptions& options) {
+  return similarity::shape_similarities().at(options.similarity).make(options.similarity_options);
+}
+
+Expected<std::vector<Piece>> pieces_of(const TileGroup& group) {
+  std::vector<Piece> out;
+  for (const auto& members : connected_tiles(group.tiles)) {
+    if (auto piece = piece_of(group, members)) {
+      out.push_back(*std::move(piece));
+      continue;
+    }
+    for (const std::uint32_t member : members) {
+      auto single = piece_of(group, {member});
+      if (!single)
+        return fail(FailureCode::kNoPlace, fmt::format("the outline of tile {} touches itself",
+                                                       group.tiles.tiles[member].id.value));
+      out.push_back(*std::move(single));
+    }
+  }
+  return out;
+}
+
+Expected<Destination> find_destination(const TileLayout& layout, const Piece& piece,
+                                       const Affine& to,
+                                       const similarity::AnyShapeSimilarity& measure,
+                                       std::span<const TileId> kept) {
+  const Polygon placed = transformed(to, piece.shape.polygon);
+  const std::vector<Point> points = points_in(placed);
+  const auto under = points_on(layout, points, kept);
+  std::size_t covered = 0;
+  for (const auto& [tile, count] : under) covered += count;
+  const double share = static_cast<double>(covered) / static_cast<double>(points.size());
+  const Point center = centroid(placed);
+  if (share < kOnTiles_01)
+    return fail(FailureCode::kNoPlace,
+                fmt::format("{:.0f} % of what is pasted at ({:.1f}, {:.1f}) would lie on tiles, at "
+                            "least {:.0f} % have to",
+                            100 * share, center.x, center.y, 100 * kOnTiles_01));
+
+  const auto prepared = measure.prepare(piece.shape);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const std::uint32_t seed = seed_of(layout, under, center);
+  const EdgeMap edges = edges_of_block(layout, layout.tiles[seed].block);
+  std::set<std::uint32_t> members{seed};
+  std::optional<Destination> best;
+  for (;;) {
+    const std::vector<std::uint32_t> candidate(members.begin(), members.end());
+    double area = 0.0;
+    if (const auto outline = outline_of(layout, candidate)) {
+      const similarity::LabelledShape shape = shape_of(layout, *outline, edges);
+      area = area_m2(shape.polygon);
+      if (const auto place = measure.prepare(shape)) {
+        auto comparison = measure.compare(*prepared, *place);
+        if (!best || comparison.distance < best->comparison.distance)
+          best = Destination{candidate, std::move(comparison)};
+      }
+    }
+    if (area > kMuchLarger * area_m2(piece.shape.polygon)) break;
+    const auto next = next_of(members, edges, under);
+    if (!next) break;
+    members.insert(*next);
+  }
+  if (!best)
+    return fail(FailureCode::kNoPlace,
+                fmt::format("no tile at ({:.1f}, {:.1f}) has an outline that can be taken over",
+                            center.x, center.y));
+  return *std::move(best);
+}
+
+}  // namespace plat::tiles::detail
