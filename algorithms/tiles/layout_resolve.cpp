@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "tiles/layout_defects.h"
 #include "tiles/reconfiguration_internal.h"
 #include "tiles/settling.h"
+#include "tiles/tile_replacement_internal.h"
 
 namespace plat::tiles::detail {
 namespace {
@@ -94,6 +96,22 @@ Targets held_tiles(const TileLayout& layout, Targets targets, std::span<const Bo
   return targets;
 }
 
+Targets held_or_farthest(const TileLayout& layout, Targets held, std::span<const Box> around) {
+  if (!held.empty() || around.empty()) return held;
+  double farthest = 0.0;
+  std::optional<std::uint32_t> tile;
+  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
+    const Box box = box_of(layout, layout.tiles[i]);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Box& other : around) nearest = std::min(nearest, distance_m(box, other));
+    if (nearest <= farthest) continue;
+    farthest = nearest;
+    tile = i;
+  }
+  if (tile) held.emplace(*tile, layout.tiles[*tile].placement);
+  return held;
+}
+
 Expected<SolvedLayout> solved(TileLayout layout, const Targets& held,
                               const SolverOptions& options) {
   std::vector<std::uint32_t> indices;
@@ -159,6 +177,9 @@ Expected<Reconfiguration> reconfigured(const TileLayout& before, TileLayout chan
   if (!outcome) return tl::unexpected(outcome.error());
   ReconfigurationReport report;
   report.rounds = 1;
+  if (options.replacement)
+    outcome =
+        with_replacements(before, *std::move(outcome), held, *options.replacement, options, report);
   auto layout = settled_and_checked(std::move(outcome->layout));
   if (!layout) return tl::unexpected(layout.error());
   compare(before, *layout, outcome->solution, report);

@@ -34,6 +34,10 @@ std::vector<Box> boxes_of(const TileLayout& layout, std::span<const std::uint32_
 Targets held_tiles(const TileLayout& layout, Targets targets, std::span<const Box> around,
                    const std::optional<double>& reach_m);
 
+/// The held tiles, or, where there are none, the tile farthest from the boxes where it is: nothing
+/// moves in a layout of which nothing is held.
+Targets held_or_farthest(const TileLayout& layout, Targets held, std::span<const Box> around);
+
 /// A layout whose placements solve its constraints, not yet settled.
 struct SolvedLayout {
   TileLayout layout;

@@ -35,20 +35,61 @@ Expected<Reconfiguration> vacate(const TileLayout& layout, std::span<const std::
   return out;
 }
 
-/// The neighbours draw together over the tiles, one after the other.
-Expected<Reconfiguration> close(const TileLayout& layout, std::span<const TileId> ids,
-                                std::span<const std::uint32_t> tiles,
-                                const ReconfigurationOptions& options) {
-  const std::vector<Box> around = detail::boxes_of(layout, tiles, {});
-  TileLayout changed = layout;
-  for (const TileId id : ids) {
-    const auto index = find_tile(changed, id);
-    if (!index) continue;  // named twice
-    auto closed = detail::without_land(changed, *index);
-    if (!closed) return tl::unexpected(closed.error());
-    changed = *std::move(closed);
+/// The tiles as one with their outline, which stands in the place of the first.
+TileLayout with_united(const TileLayout& layout, const std::vector<std::uint32_t>& tiles,
+                       const std::vector<detail::OutlineEdge>& outline) {
+  TileLayout out = layout;
+  Tile& first = out.tiles[tiles.front()];
+  first.placement = {};
+  first.rings.assign(1, {});
+  for (const detail::OutlineEdge& edge : outline)
+    first.rings.front().push_back({edge.vertex, layout.vertices[edge.vertex].at});
+  const auto unite = [&](std::uint32_t& tile, Point& rest) {
+    if (!std::ranges::binary_search(tiles, tile)) return;
+    rest = layout.tiles[tile].placement(rest);
+    tile = tiles.front();
+  };
+  for (StreetLink& link : out.links) {
+    unite(link.a, link.rest_a);
+    unite(link.b, link.rest_b);
   }
-  const auto held = detail::held_tiles(changed, {}, around, options.reach_m);
+  return detail::without_tiles(out, std::span(tiles).subspan(1));
+}
+
+/// The layout without land that is one piece: closed at once where its outline is one ring, else
+/// tile by tile.
+Expected<TileLayout> closed(const TileLayout& layout, const std::vector<TileId>& piece) {
+  const auto indices = detail::indices_of(layout, piece);
+  if (!indices) return tl::unexpected(indices.error());
+  if (const auto outline = detail::outline_of(layout, *indices)) {
+    const TileLayout united = with_united(layout, *indices, *outline);
+    auto out = detail::without_land(united, *find_tile(united, layout.tiles[indices->front()].id));
+    if (out || indices->size() == 1) return out;
+  }
+  TileLayout out = layout;
+  for (const TileId id : piece) {
+    auto without = detail::without_land(out, *find_tile(out, id));
+    if (!without) return without;
+    out = *std::move(without);
+  }
+  return out;
+}
+
+/// The neighbours draw together over the tiles.
+Expected<Reconfiguration> close(const TileLayout& layout, std::span<const std::uint32_t> tiles,
+                                const ReconfigurationOptions& options) {
+  const TileLayout land = detail::without_tiles(layout, all_but(layout, tiles));
+  TileLayout changed = layout;
+  for (const auto& members : detail::connected_tiles(land)) {
+    std::vector<TileId> piece;
+    for (const std::uint32_t i : members) piece.push_back(land.tiles[i].id);
+    auto without = closed(changed, piece);
+    if (!without) return tl::unexpected(without.error());
+    changed = *std::move(without);
+  }
+  const std::vector<Box> around = detail::boxes_of(layout, tiles, {});
+  const auto held = detail::held_or_farthest(
+      changed, detail::held_tiles(changed, {}, around, options.reach_m), around);
   return detail::reconfigured(layout, std::move(changed), held, options);
 }
 
@@ -81,7 +122,7 @@ Expected<Reconfiguration> cut_tiles(const TileLayout& layout, std::span<const Ti
   const auto indices = detail::indices_of(layout, tiles);
   if (!indices) return tl::unexpected(indices.error());
   return land == VacatedLand::kVacant ? vacate(layout, *indices, options)
-                                      : close(layout, tiles, *indices, options);
+                                      : close(layout, *indices, options);
 }
 
 }  // namespace plat::tiles

@@ -98,8 +98,8 @@ Expected<Reconfiguration> paste_tiles(const TileLayout& layout, const TileGroup&
   std::vector<Box> around = paste.around();
   for (const Box& box : detail::boxes_of(changed, pasted, targets)) around.push_back(box);
   detail::Targets held = detail::held_tiles(changed, {}, around, options.reach_m);
-  // With nothing held, pasted tiles are: else nothing would move.
-  if (options.pasted == PastedTiles::kHeld || held.empty()) held.merge(targets);
+  if (options.pasted == PastedTiles::kHeld) held.merge(targets);
+  held = detail::held_or_farthest(changed, std::move(held), around);
   return detail::reconfigured(layout, changed, held, options);
 }
 

@@ -1,0 +1,318 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "similarity/candidate_search.h"
+#include "tiles/layout_defects.h"
+#include "tiles/settling.h"
+#include "tiles/tile_destination_internal.h"
+#include "tiles/tile_outline_internal.h"
+#include "tiles/tile_replacement_internal.h"
+#include "tiles/tile_substitution_internal.h"
+
+namespace plat::tiles::detail {
+namespace {
+
+/// While a replacement is tried, tiles farther than this from it stay where they are: what a lot
+/// does to the next street but one is not worth a solve of the whole city.
+constexpr double kTrialReach_m = 120.0;
+/// A total error that falls by less than this share did not fall.
+constexpr double kFalls_01 = 1e-6;
+
+/// Tiles as they were observed, to be put in the place of others.
+class Candidates {
+ public:
+  Candidates(const TileLayout& observed, const ReconfigurationOptions& options);
+
+  /// Those most similar to a shape, of its zone, nearest first.
+  [[nodiscard]] std::vector<std::uint32_t> most_similar(const similarity::LabelledShape& place,
+                                                        int count, TileId except) const;
+  [[nodiscard]] const TileLayout& tile(std::uint32_t candidate) const { return tiles_[candidate]; }
+  [[nodiscard]] similarity::ShapeComparison compare(std::uint32_t candidate,
+                                                    const similarity::LabelledShape& place) const;
+
+ private:
+  std::vector<TileLayout> tiles_;  ///< one tile each, where it was observed
+  std::vector<similarity::LabelledShape> shapes_;
+  std::vector<TileId> ids_;
+  similarity::AnyShapeSimilarity measure_;
+  std::optional<similarity::CandidateSearch> search_;
+};
+
+TileLayout at_rest(const Tile& tile) {
+  TileLayout out;
+  Tile copy = tile;
+  copy.placement = {};
+  copy.rings.resize(1);
+  for (Corner& corner : copy.rings.front()) {
+    out.vertices.push_back({corner.rest, true});
+    corner.vertex = static_cast<std::uint32_t>(out.vertices.size() - 1);
+  }
+  out.tiles.push_back(std::move(copy));
+  return out;
+}
+
+Candidates::Candidates(const TileLayout& observed, const ReconfigurationOptions& options)
+    : measure_(measure_of(options)) {
+  std::vector<std::uint32_t> all(observed.tiles.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  const EdgeMap edges = edges_of(observed, all);
+  for (const std::uint32_t i : all) {
+    const Tile& tile = observed.tiles[i];
+    if (tile.rings.size() != 1 || tile.zone == kVacantZone) continue;
+    similarity::LabelledShape shape{rest_shape_of(tile), {}, tile.zone};
+    const auto& ring = tile.rings.front();
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const bool is_property = edges.contains({ring[(k + 1) % ring.size()].vertex, ring[k].vertex});
+      shape.edges.push_back(is_property ? similarity::EdgeLabel::kProperty
+                                        : similarity::EdgeLabel::kStreet);
+    }
+    tiles_.push_back(at_rest(tile));
+    shapes_.push_back(std::move(shape));
+    ids_.push_back(tile.id);
+  }
+  if (shapes_.empty()) return;
+  similarity::Clusters one{std::vector<std::uint32_t>(shapes_.size(), 0), {{}}};
+  for (std::uint32_t i = 0; i < shapes_.size(); ++i) one.members.front().push_back(i);
+  search_.emplace(shapes_, one, measure_);
+}
+
+std::vector<std::uint32_t> Candidates::most_similar(const similarity::LabelledShape& place,
+                                                    int count, TileId except) const {
+  if (!search_) return {};
+  std::vector<std::uint32_t> excluded;
+  for (std::uint32_t i = 0; i < ids_.size(); ++i) {
+    if (ids_[i] == except) excluded.push_back(i);
+  }
+  const auto found = search_->most_similar(place, {.count = count}, excluded);
+  std::vector<std::uint32_t> out;
+  if (!found) return out;
+  for (const similarity::Candidate& candidate : *found) out.push_back(candidate.shape);
+  return out;
+}
+
+similarity::ShapeComparison Candidates::compare(std::uint32_t candidate,
+                                                const similarity::LabelledShape& place) const {
+  const auto a = measure_.prepare(shapes_[candidate]);
+  const auto b = measure_.prepare(place);
+  if (!a || !b) return {};
+  return measure_.compare(*a, *b);
+}
+
+using HeldById = std::map<TileId, Affine>;
+
+Targets by_index(const TileLayout& layout, const HeldById& held) {
+  Targets out;
+  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
+    if (const auto found = held.find(layout.tiles[i].id); found != held.end())
+      out.emplace(i, found->second);
+  }
+  return out;
+}
+
+class Rounds {
+ public:
+  Rounds(const TileLayout& observed, SolvedLayout start, const Targets& held,
+         const ReplacementOptions& replacement, const ReconfigurationOptions& options,
+         ReconfigurationReport& report)
+      : now_(std::move(start)),
+        replacement_(replacement),
+        options_(options),
+        candidates_(observed, options),
+        report_(report) {
+    for (const auto& [tile, target] : held) held_.emplace(now_.layout.tiles[tile].id, target);
+    now_.layout = settled(std::move(now_.layout));
+    defects_ = find_tile_defects(now_.layout).size();
+  }
+
+  void run();
+  SolvedLayout take() { return std::move(now_); }
+
+ private:
+  [[nodiscard]] std::vector<TileId> over_thresholds() const;
+  bool replace(TileId id);
+  bool put_in_place(const std::vector<std::uint32_t>& replaced);
+  bool try_candidate(std::uint32_t candidate, const std::vector<std::uint32_t>& replaced,
+                     const similarity::LabelledShape& place);
+  [[nodiscard]] double error_within(const std::vector<std::uint32_t>& tiles) const;
+  bool solve_all();
+
+  SolvedLayout now_;
+  const ReplacementOptions& replacement_;
+  const ReconfigurationOptions& options_;
+  Candidates candidates_;
+  HeldById held_;
+  std::size_t defects_ = 0;
+  ReconfigurationReport& report_;
+};
+
+/// Deformed tiles, the most deformed first.
+std::vector<TileId> Rounds::over_thresholds() const {
+  const TileLayout& layout = now_.layout;
+  const TileGraph graph = graph_of(layout);
+  std::vector<double> gap(layout.tiles.size(), 0.0);
+  std::vector<int> joints(layout.tiles.size(), 0);
+  for (std::size_t k = 0; k < graph.joints.size(); ++k) {
+    if (graph.joints[k].kind != JointKind::kProperty) continue;
+    for (const std::uint32_t tile : {graph.joints[k].a, graph.joints[k].b}) {
+      gap[tile] += now_.solution.gaps_m[k];
+      ++joints[tile];
+    }
+  }
+  std::vector<std::pair<double, TileId>> over;
+  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
+    const Tile& tile = layout.tiles[i];
+    if (held_.contains(tile.id) || tile.rings.size() != 1) continue;
+    const double deformation = now_.solution.deformations[i];
+    const double mean_gap = joints[i] > 0 ? gap[i] / joints[i] : 0.0;
+    if (deformation > replacement_.deformation_threshold || mean_gap > replacement_.gap_threshold_m)
+      over.emplace_back(-deformation, tile.id);
+  }
+  std::ranges::sort(over);
+  std::vector<TileId> out;
+  for (const auto& [deformation, id] : over) out.push_back(id);
+  return out;
+}
+
+/// What joints between the tiles, and deformations of all but the most deformed of them, add to the
+/// objective: it vanishes with them and is no gain.
+double Rounds::error_within(const std::vector<std::uint32_t>& tiles) const {
+  if (tiles.size() < 2) return 0.0;
+  const TileGraph graph = graph_of(now_.layout);
+  TileGraph part;
+  std::vector<Affine> placements;
+  std::map<std::uint32_t, std::uint32_t> index;
+  for (const std::uint32_t tile : tiles) {
+    index.emplace(tile, static_cast<std::uint32_t>(part.tiles.size()));
+    part.tiles.push_back(graph.tiles[tile]);
+    placements.push_back(now_.layout.tiles[tile].placement);
+  }
+  for (Joint joint : graph.joints) {
+    const auto a = index.find(joint.a);
+    const auto b = index.find(joint.b);
+    if (a == index.end() || b == index.end()) continue;
+    joint.a = a->second;
+    joint.b = b->second;
+    part.joints.push_back(joint);
+  }
+  double largest = 0.0;
+  for (std::size_t k = 0; k < part.tiles.size(); ++k) {
+    const TileGraph alone{{part.tiles[k]}, {}};
+    largest =
+        std::max(largest, measure_placements(alone, {placements[k]}, options_.solver).objective);
+  }
+  return measure_placements(part, std::move(placements), options_.solver).objective - largest;
+}
+
+/// Puts a candidate there if the total error then falls and nothing new overlaps.
+bool Rounds::try_candidate(std::uint32_t candidate, const std::vector<std::uint32_t>& replaced,
+                           const similarity::LabelledShape& place) {
+  auto trial = substituted(now_.layout, {.piece = &candidates_.tile(candidate),
+                                         .replaced = replaced,
+                                         .comparison = candidates_.compare(candidate, place),
+                                         .as_placed = {},
+                                         .unmet = UnmetVertices::kKept});
+  if (!trial) return false;
+  const auto around = boxes_of(now_.layout, replaced, {});
+  const Targets held = held_or_farthest(
+      trial->layout,
+      held_tiles(trial->layout, by_index(trial->layout, held_), around, kTrialReach_m), around);
+  auto outcome = solved(std::move(trial->layout), held, options_.solver);
+  if (!outcome) return false;
+  const double before = now_.solution.objective - error_within(replaced);
+  if (outcome->solution.objective >= before * (1.0 - kFalls_01)) return false;
+  outcome->layout = settled(std::move(outcome->layout));
+  const std::size_t defects = find_tile_defects(outcome->layout).size();
+  if (defects > defects_) return false;
+  defects_ = defects;
+  now_ = *std::move(outcome);
+  return true;
+}
+
+bool Rounds::put_in_place(const std::vector<std::uint32_t>& replaced) {
+  const auto outline = outline_of(now_.layout, replaced);
+  if (!outline) return false;
+  const Tile& first = now_.layout.tiles[replaced.front()];
+  const auto place = shape_of(now_.layout, *outline, edges_of_block(now_.layout, first.block));
+  for (const std::uint32_t candidate :
+       candidates_.most_similar(place, replacement_.candidates, first.id)) {
+    if (try_candidate(candidate, replaced, place)) {
+      ++report_.replacements;
+      return true;
+    }
+    ++report_.replacements_refused;
+  }
+  return false;
+}
+
+/// One for one, else one for the tile and a neighbour.
+bool Rounds::replace(TileId id) {
+  const auto tile = find_tile(now_.layout, id);
+  if (!tile) return false;  // replaced together with a neighbour
+  if (put_in_place({*tile})) return true;
+  const EdgeMap edges = edges_of_block(now_.layout, now_.layout.tiles[*tile].block);
+  std::set<std::uint32_t> neighbours;
+  for (const auto& [edge, place] : edges) {
+    if (place.tile != *tile) continue;
+    const auto beyond = edges.find({edge.second, edge.first});
+    if (beyond == edges.end()) continue;
+    const Tile& other = now_.layout.tiles[beyond->second.tile];
+    if (!held_.contains(other.id) && other.zone == now_.layout.tiles[*tile].zone)
+      neighbours.insert(beyond->second.tile);
+  }
+  for (const std::uint32_t other : neighbours) {
+    if (put_in_place({std::min(*tile, other), std::max(*tile, other)})) return true;
+  }
+  return false;
+}
+
+/// Solves for all tiles that the operation leaves free; kept if the total error does not rise.
+bool Rounds::solve_all() {
+  auto outcome = solved(now_.layout, by_index(now_.layout, held_), options_.solver);
+  if (!outcome || outcome->solution.objective > now_.solution.objective) return false;
+  outcome->layout = settled(std::move(outcome->layout));
+  const std::size_t defects = find_tile_defects(outcome->layout).size();
+  if (defects > defects_) return false;
+  defects_ = defects;
+  now_ = *std::move(outcome);
+  return true;
+}
+
+void Rounds::run() {
+  for (int round = 0; round < replacement_.max_rounds; ++round) {
+    bool is_changed = false;
+    for (const TileId id : over_thresholds()) is_changed = replace(id) || is_changed;
+    if (!is_changed) return;
+    solve_all();
+    ++report_.rounds;
+  }
+}
+
+}  // namespace
+
+SolvedLayout with_replacements(const TileLayout& observed, SolvedLayout solution,
+                               const Targets& held, const ReplacementOptions& replacement,
+                               const ReconfigurationOptions& options,
+                               ReconfigurationReport& report) {
+  Rounds rounds(observed, std::move(solution), held, replacement, options, report);
+  rounds.run();
+  return rounds.take();
+}
+
+}  // namespace plat::tiles::detail
+
+namespace plat::tiles {
+
+Expected<Reconfiguration> replace_deformed_tiles(const TileLayout& layout,
+                                                 const ReplacementOptions& replacement,
+                                                 const ReconfigurationOptions& options) {
+  ReconfigurationOptions with = options;
+  with.replacement = replacement;
+  return detail::reconfigured(layout, layout, detail::held_tiles(layout, {}, {}, std::nullopt),
+                              with);
+}
+
+}  // namespace plat::tiles
