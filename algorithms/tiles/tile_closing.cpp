@@ -52,8 +52,8 @@ class Closing {
 
   /// Whether the sides could be laid on each other.
   bool run();
-  /// Of the length of the sides that become points, the share along streets.
-  [[nodiscard]] double street_share_01() const;
+  /// Of the sides that become points, the length along neighbours: what they lose.
+  [[nodiscard]] double lost_m() const;
   TileLayout take() { return without_tiles(out_, std::array{tile_}); }
 
  private:
@@ -122,17 +122,14 @@ std::optional<EdgePlace> Closing::beyond(std::size_t edge) const {
   return found->second;
 }
 
-double Closing::street_share_01() const {
-  double street = 0.0;
-  double total = 0.0;
+double Closing::lost_m() const {
+  double out = 0.0;
   for (const std::size_t side : {0U, 2U}) {
     for (std::size_t i = sides_[side]; i != sides_[side + 1]; i = (i + 1) % size()) {
-      const double edge = distance(along_.ring()[i], along_.ring()[(i + 1) % size()]);
-      total += edge;
-      if (!beyond(i)) street += edge;
+      if (beyond(i)) out += distance(along_.ring()[i], along_.ring()[(i + 1) % size()]);
     }
   }
-  return total > 0.0 ? street / total : 0.0;
+  return out;
 }
 
 double Closing::along_01(std::size_t side, double s) const {
@@ -427,8 +424,7 @@ Expected<TileLayout> without_land(const TileLayout& layout, std::uint32_t tile) 
     return without_tiles(out, std::array{tile});
   }
   const unsigned first =
-      Closing(layout, tile, 1).street_share_01() >= Closing(layout, tile, 0).street_share_01() ? 1
-                                                                                               : 0;
+      Closing(layout, tile, 1).lost_m() <= Closing(layout, tile, 0).lost_m() ? 1 : 0;
   for (const unsigned turn : {first, 1 - first}) {
     Closing way(layout, tile, turn);
     if (way.run()) return way.take();

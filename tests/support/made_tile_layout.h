@@ -66,7 +66,9 @@ class MadeBlock {
       if (is_north) ring = {middle(i, n), middle(i + 1, n), front[k + 1], front[k]};
       for (Point& p : ring) p = snap(made_.turn(p));
       const char* zones[] = {"residential", "commercial", "park"};
-      pieces.push_back({"piece " + std::to_string(pieces.size()), zones[(block + k) % 3], block,
+      pieces.push_back({"piece " + std::to_string(pieces.size()),
+                        zones[(block + k) % 3],
+                        block,
                         {std::move(ring), {}}});
     }
   }
