@@ -61,10 +61,13 @@ TileLayout with_united(const TileLayout& layout, const std::vector<std::uint32_t
 Expected<TileLayout> closed(const TileLayout& layout, const std::vector<TileId>& piece) {
   const auto indices = detail::indices_of(layout, piece);
   if (!indices) return tl::unexpected(indices.error());
-  if (const auto outline = detail::outline_of(layout, *indices)) {
+  const bool has_holes = std::ranges::any_of(
+      *indices, [&](std::uint32_t i) { return layout.tiles[i].rings.size() > 1; });
+  const auto outline = detail::outline_of(layout, *indices);
+  if (outline && indices->size() > 1 && !has_holes) {
     const TileLayout united = with_united(layout, *indices, *outline);
-    auto out = detail::without_land(united, *find_tile(united, layout.tiles[indices->front()].id));
-    if (out || indices->size() == 1) return out;
+    const TileId id = layout.tiles[indices->front()].id;
+    if (auto out = detail::without_land(united, *find_tile(united, id))) return out;
   }
   TileLayout out = layout;
   for (const TileId id : piece) {

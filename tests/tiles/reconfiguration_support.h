@@ -19,11 +19,11 @@ using tiles::TileLayout;
 inline const tiles::Tile& tile_of(const TileLayout& layout, TileId id) {
   return layout.tiles.at(tiles::find_tile(layout, id).value());
 }
-inline Polygon shape_of(const TileLayout& layout, TileId id) {
+inline Polygon land_of(const TileLayout& layout, TileId id) {
   return tiles::shape_of(layout, tile_of(layout, id));
 }
 inline Point middle_of(const TileLayout& layout, TileId id) {
-  return centroid(shape_of(layout, id));
+  return centroid(land_of(layout, id));
 }
 
 /// The layout's invariants and no overlaps; else what is wrong.

@@ -13,7 +13,7 @@ using namespace plat::testing;  // NOLINT: the support of this test
 
 double land_m2(const TileLayout& layout) {
   double out = 0.0;
-  for (const Tile& tile : layout.tiles) out += area_m2(tiles::shape_of(layout, tile));
+  for (const Tile& tile : layout.tiles) out += area_m2(shape_of(layout, tile));
   return out;
 }
 
@@ -27,7 +27,7 @@ TEST(CopyTiles, AGroupHasItsTilesWithWhatTheyShare) {
   EXPECT_EQ(defect_of(group->tiles), "");
   for (std::size_t k = 0; k < 3; ++k) {
     const Tile& copy = group->tiles.tiles[k];
-    EXPECT_EQ(tiles::shape_of(group->tiles, copy), shape_of(layout, ids[k]));
+    EXPECT_EQ(shape_of(group->tiles, copy), land_of(layout, ids[k]));
     EXPECT_EQ(rest_shape_of(copy), rest_shape_of(tile_of(layout, ids[k])));
     EXPECT_FALSE(copy.is_pinned);
   }
@@ -50,7 +50,7 @@ TEST(CutTiles, VacantLandStaysInPlace) {
   const Tile& land = tile_of(cut->layout, cut->report.appeared.front());
   EXPECT_EQ(land.zone, kVacantZone);
   EXPECT_EQ(land.source_id, "");
-  EXPECT_EQ(tiles::shape_of(cut->layout, land), shape_of(layout, id));
+  EXPECT_EQ(shape_of(cut->layout, land), land_of(layout, id));
   EXPECT_EQ(cut->layout.vertices, layout.vertices);
   EXPECT_EQ(cut->layout.links, layout.links);
 }
@@ -64,7 +64,7 @@ TEST(CutTiles, NeighboursDrawTogetherOverClosedLand) {
   ASSERT_TRUE(cut) << cut.error().message;
   EXPECT_EQ(cut->report.vanished, std::vector{id});
   EXPECT_EQ(defect_of(cut->layout), "");
-  EXPECT_LT(land_m2(cut->layout), land_m2(layout) - 0.5 * area_m2(shape_of(layout, id)));
+  EXPECT_LT(land_m2(cut->layout), land_m2(layout) - 0.5 * area_m2(land_of(layout, id)));
   std::set<std::uint32_t> left;
   for (const Corner& c : tile_of(cut->layout, west).rings[0]) left.insert(c.vertex);
   EXPECT_EQ(std::ranges::count_if(tile_of(cut->layout, east).rings[0],
