@@ -45,8 +45,8 @@ int ImageRetrieval::front_of(const ParcelShape& shape) const {
 }
 
 ImageRetrieval::Entry ImageRetrieval::entry_of(const ParcelShape& shape, std::size_t index) const {
-  return {options_.area_weight * std::log(shape.box.area_m2()),
-          options_.aspect_weight * std::log(shape.box.aspect_ratio()), index};
+  return {similarity::box_coordinates(shape.box, {options_.area_weight, options_.aspect_weight}),
+          index};
 }
 
 void ImageRetrieval::build(Tree& tree, std::size_t begin, std::size_t end, int depth) {
@@ -54,8 +54,8 @@ void ImageRetrieval::build(Tree& tree, std::size_t begin, std::size_t end, int d
   const std::size_t middle = begin + (end - begin) / 2;
   const auto at = [&](std::size_t i) { return tree.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), [&](const Entry& a, const Entry& b) {
-    const double x = depth % 2 == 0 ? a.area : a.aspect;
-    const double y = depth % 2 == 0 ? b.area : b.aspect;
+    const double x = depth % 2 == 0 ? a.box.area : a.box.aspect;
+    const double y = depth % 2 == 0 ? b.box.area : b.box.aspect;
     return x != y ? x < y : a.example < b.example;
   });
   build(tree, begin, middle, depth + 1);
@@ -67,17 +67,16 @@ void ImageRetrieval::search(const Tree& tree, std::size_t begin, std::size_t end
   if (begin >= end) return;
   const std::size_t middle = begin + (end - begin) / 2;
   const Entry& root = tree[middle];
-  const double d_area = query.at.area - root.area;
-  const double d_aspect = query.at.aspect - root.aspect;
   if (root.example != query.excluded) {
-    const Candidate candidate{d_area * d_area + d_aspect * d_aspect, root.example};
+    const Candidate candidate{squared_distance(query.at.box, root.box), root.example};
     auto& found = query.found;
     if (found.size() < query.count || candidate < found.back()) {
       found.insert(std::upper_bound(found.begin(), found.end(), candidate), candidate);
       if (found.size() > query.count) found.pop_back();
     }
   }
-  const double d = depth % 2 == 0 ? d_area : d_aspect;
+  const double d =
+      depth % 2 == 0 ? query.at.box.area - root.box.area : query.at.box.aspect - root.box.aspect;
   const auto visit = [&](bool before) {
     if (before) {
       search(tree, begin, middle, depth + 1, query);

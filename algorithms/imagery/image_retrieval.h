@@ -12,6 +12,7 @@
 #include "core/options.h"
 #include "core/rng.h"
 #include "imagery/parcel_shape.h"
+#include "similarity/box_similarity.h"
 
 namespace plat::imagery {
 
@@ -71,8 +72,8 @@ struct Match {
 /// long on long, short on short. A parcel of whose streets nothing is known matches those of which
 /// nothing is known, and after them any.
 ///
-/// Guarantees: 1. the nearest by sqrt((w_a d log area)^2 + (w_r d log aspect)^2), the lower index
-/// where two are equally near;  2. the level is the first that has an example at all;  3. with
+/// Guarantees: 1. the nearest by the distance of similarity::BoxSimilarity, the lower index where
+/// two are equally near;  2. the level is the first that has an example at all;  3. with
 /// variety k one of the k nearest, uniformly; the same stream gives the same choice.
 /// Complexity: O(log n) a query, O(n log n) to build
 /// Paper:      [AVB08, Sec. 3.2]
@@ -90,8 +91,7 @@ class ImageRetrieval {
 
  private:
   struct Entry {
-    double area;
-    double aspect;
+    similarity::BoxCoordinates box;
     std::size_t example;
   };
   /// A balanced tree of two dimensions in an array: the middle of a range is its root, the halves
