@@ -10,6 +10,7 @@
 #include "harness/experiment_config.h"
 #include "parcels/block_subdivider.h"
 #include "sequences/sequence_search.h"
+#include "similarity/shape_similarity.h"
 #include "streets/street_grower.h"
 
 namespace plat::cli {
@@ -36,6 +37,8 @@ void for_each_family(Visit visit) {
         parcels::block_subdividers());
   visit("sequence_search", "Search of sequences (plat search --method NAME --set key=value)",
         sequences::sequence_searches());
+  visit("shape_similarity", "Distances between shapes (names and options for experiments)",
+        similarity::shape_similarities());
   visit("street_grower", "Street growth (plat synthesize SCRIPT.json, whose \"grower\" names one)",
         streets::street_growers());
 }

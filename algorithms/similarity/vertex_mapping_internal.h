@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "similarity/affine_vertex_similarity.h"
+
+namespace plat::similarity::detail {
+
+/// A choice of corners of one outline, laid on all corners of another: the k-th chosen one on
+/// corner (k + offset) mod count.
+struct VertexMapping {
+  double error = std::numeric_limits<double>::infinity();
+  std::uint32_t chosen = 0;
+  int offset = 0;
+  /// From the first outline's frame to that of the second, each about the mean of its mapped
+  /// corners.
+  Affine linear;
+  Point from_mean;  ///< of the chosen corners, in the frame
+  Point to_mean;
+};
+
+/// The mapping of least error, rules given up one by one where all are rejected.
+/// Pre: from.count >= to.count >= 3.
+VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline& to,
+                                  const AffineVertexSimilarity::Options& options);
+
+}  // namespace plat::similarity::detail
