@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/affine.h"
 
 namespace plat::similarity {
 
 /// By what factor the larger of two positive numbers exceeds the smaller: max / min - 1.
-constexpr double ratio_excess(double x, double y) { return x > y ? x / y - 1.0 : y / x - 1.0; }
+constexpr double ratio_excess(double x, double y) { return std::max(x, y) / std::min(x, y) - 1.0; }
 
 /// How far an affine map is from a rigid one; 0, 0, 0 for rigid ones.
 ///

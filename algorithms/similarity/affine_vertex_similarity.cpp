@@ -47,9 +47,8 @@ Affine frame_of(const CornerOutline& outline) {
   return {outline.axis.x, -outline.axis.y, outline.axis.y, outline.axis.x, outline.mean};
 }
 
-Point corner_of(const CornerOutline& outline, int corner) {
-  const auto i = static_cast<std::size_t>(corner);
-  return frame_of(outline)({outline.x[i], outline.y[i]});
+Point corner_of(const CornerOutline& outline, std::size_t corner) {
+  return frame_of(outline)(outline.corners[corner]);
 }
 
 Affine map_of(const VertexMapping& mapping, const CornerOutline& from, const CornerOutline& to) {
@@ -68,7 +67,7 @@ Expected<AffineVertexSimilarity::Prepared> AffineVertexSimilarity::prepare(
   const Ring& ring = shape.polygon.outer;
   const auto chosen = outline_corners(ring, static_cast<std::size_t>(options_.max_corners));
   CornerOutline out;
-  out.count = static_cast<int>(chosen.size());
+  out.count = chosen.size();
   out.area_m2 = signed_area_m2(ring);
   out.perimeter_m = plat::perimeter_m(ring);
   label_corners(shape, chosen, out);
@@ -81,10 +80,8 @@ Expected<AffineVertexSimilarity::Prepared> AffineVertexSimilarity::prepare(
   out.corner_area_m2 = std::abs(signed_area_m2(corners));
   for (Point& p : corners) p = p - mean;
   if (options_.frame == DistortionFrame::kTileAxes) out.axis = principal_axis(corners);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    out.x[i] = dot(corners[i], out.axis);
-    out.y[i] = dot(corners[i], perpendicular(out.axis));
-  }
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    out.corners[i] = {dot(corners[i], out.axis), dot(corners[i], perpendicular(out.axis))};
   return Prepared{out};
 }
 
@@ -101,16 +98,16 @@ ShapeComparison AffineVertexSimilarity::compare(const Prepared& a, const Prepare
   const CornerOutline& to = is_inverted ? a.outline : b.outline;
   const VertexMapping mapping = detail::best_vertex_mapping(from, to, options_);
   ShapeComparison out{mapping.error, map_of(mapping, from, to), {}};
-  int k = 0;
+  std::size_t k = 0;
   for (std::uint32_t rest = mapping.chosen; rest != 0; rest &= rest - 1, ++k) {
-    const Point corner = corner_of(from, std::countr_zero(rest));
+    const Point corner = corner_of(from, static_cast<std::size_t>(std::countr_zero(rest)));
     const Point laid_on = corner_of(to, (k + mapping.offset) % to.count);
     out.correspondence.emplace_back(is_inverted ? laid_on : corner, is_inverted ? corner : laid_on);
   }
   if (is_inverted) {
     out.transformation = out.transformation->inverse();
     // In the order of the first outline, which is the one laid on.
-    const auto first = (to.count - mapping.offset) % to.count;
+    const auto first = static_cast<std::ptrdiff_t>((to.count - mapping.offset) % to.count);
     std::ranges::rotate(out.correspondence, out.correspondence.begin() + first);
   }
   return out;

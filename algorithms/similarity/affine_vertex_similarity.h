@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <tuple>
@@ -11,14 +12,13 @@
 namespace plat::similarity {
 
 /// The most corners of an outline that vertex mappings look at.
-inline constexpr int kMaxMappedCorners = 16;
+inline constexpr std::size_t kMaxMappedCorners = 16;
 
 /// An outline as vertex mappings see it: its corners about their mean, in the frame in which
 /// distortion is measured. A set of corners is a number: bit i is corner i.
 struct CornerOutline {
-  int count = 0;
-  std::array<double, kMaxMappedCorners> x{};
-  std::array<double, kMaxMappedCorners> y{};
+  std::size_t count = 0;
+  std::array<Point, kMaxMappedCorners> corners{};
   std::uint32_t street_corners = 0;    ///< with a street edge before or behind them
   std::uint32_t property_corners = 0;  ///< between two property edges
   double corner_area_m2 = 0.0;         ///< of the corners' polygon, > 0
@@ -49,7 +49,7 @@ enum class DistortionFrame : std::uint8_t { kCityAxes, kTileAxes };
 /// max_corners over max_corners / 2 choices of corners, times cyclic shifts, are looked at: 5,544
 /// mappings for 12;  4. an outline on itself: 0 to the last bit.
 /// The correspondence is of corners; the transformation does not mirror.
-/// Complexity: prepare O(n log n); a pair of 4- to 8-gons 0.1 to 3 us
+/// Complexity: prepare O(n log n); a pair of 4- to 8-gons 0.3 to 5 us
 /// Paper:      [ABVA08, Sec. 5, Eq. 4 and 5]
 /// Deviation:  outlines of more than `max_corners` are simplified, holes are not looked at; a
 ///             removal that adds area counts as one that takes it; e_perimeter is relative to the

@@ -10,7 +10,6 @@ namespace plat::similarity::detail {
 namespace {
 
 using Options = AffineVertexSimilarity::Options;
-using Coordinates = std::array<double, kMaxMappedCorners>;
 
 /// Corners lie on a line where the determinant of their second moments is at most this share of the
 /// square of its trace: a thousandth of a millimetre over a metre.
@@ -20,198 +19,205 @@ constexpr double kLeastSine = 1e-9;
 /// Of the sum of squares, what may be lost to rounding where the residual is taken as a difference.
 constexpr double kRoundingShare = 1e-12;
 
-constexpr std::uint32_t all_of(int count) { return (1U << count) - 1U; }
+constexpr std::uint32_t all_of(std::size_t count) { return (1U << count) - 1U; }
 
 /// A set of `count` corners, renamed: corner i becomes corner i - by.
-constexpr std::uint32_t rotated(std::uint32_t corners, int by, int count) {
+constexpr std::uint32_t rotated(std::uint32_t corners, std::size_t by, std::size_t count) {
   return ((corners >> by) | (corners << (count - by))) & all_of(count);
 }
 
-/// Second moments of paired points about their means: sums of p_x q_x, p_x q_y, p_y q_x, p_y q_y.
-struct Moments {
+/// A matrix of two rows.
+struct Matrix {
   double xx = 0.0;
   double xy = 0.0;
   double yx = 0.0;
   double yy = 0.0;
+
+  [[nodiscard]] double determinant() const { return xx * yy - xy * yx; }
+  [[nodiscard]] double product_sum(const Matrix& other) const {
+    return xx * other.xx + xy * other.xy + yx * other.yx + yy * other.yy;
+  }
 };
 
-/// Corners in their order, with what does not depend on what they are laid on.
-struct Corners {
-  int count = 0;
-  Coordinates x;
-  Coordinates y;
-  Point sum;
+/// A choice of corners, about their mean.
+struct Choice {
+  std::uint32_t corners = 0;  ///< the set
+  std::size_t count = 0;
+  std::array<Point, kMaxMappedCorners> at;
+  Point mean;
 };
 
-Corners chosen_corners(const CornerOutline& outline, std::uint32_t chosen) {
-  Corners out;
-  for (; chosen != 0; chosen &= chosen - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(chosen));
-    const auto k = static_cast<std::size_t>(out.count++);
-    out.x[k] = outline.x[i];
-    out.y[k] = outline.y[i];
-    out.sum = out.sum + Point{outline.x[i], outline.y[i]};
+/// The sum of p q^T over the choice's corners q and as many points p: the second moments about the
+/// means, whatever the mean of p, as that of q is zero.
+Matrix moments(const Point* p, const Choice& q) {
+  Matrix m;
+  for (std::size_t k = 0; k < q.count; ++k) {
+    m.xx += p[k].x * q.at[k].x;
+    m.xy += p[k].x * q.at[k].y;
+    m.yx += p[k].y * q.at[k].x;
+    m.yy += p[k].y * q.at[k].y;
   }
-  return out;
-}
-
-/// @param p  `count` points, of the sum given
-Moments moments(const double* px, const double* py, Point p_sum, const Corners& q) {
-  Moments m;
-  for (int k = 0; k < q.count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    m.xx += px[i] * q.x[i];
-    m.xy += px[i] * q.y[i];
-    m.yx += py[i] * q.x[i];
-    m.yy += py[i] * q.y[i];
-  }
-  const double count = q.count;
-  m.xx -= p_sum.x * q.sum.x / count;
-  m.xy -= p_sum.x * q.sum.y / count;
-  m.yx -= p_sum.y * q.sum.x / count;
-  m.yy -= p_sum.y * q.sum.y / count;
   return m;
 }
 
-/// Twice the area of the triangle of three corners.
-double twice_triangle(const CornerOutline& outline, int a, int b, int c) {
-  const auto at = [&](int i) {
-    return Point{outline.x[static_cast<std::size_t>(i)], outline.y[static_cast<std::size_t>(i)]};
-  };
-  return std::abs(orientation(at(a), at(b), at(c)));
+Choice choose(const CornerOutline& outline, std::uint32_t corners) {
+  Choice out{corners, 0, {}, {}};
+  for (std::uint32_t rest = corners; rest != 0; rest &= rest - 1) {
+    const Point p = outline.corners[static_cast<std::size_t>(std::countr_zero(rest))];
+    out.at[out.count++] = p;
+    out.mean = out.mean + p;
+  }
+  out.mean = out.mean / static_cast<double>(out.count);
+  for (std::size_t k = 0; k < out.count; ++k) out.at[k] = out.at[k] - out.mean;
+  return out;
 }
 
-/// The corners of a set, in order.
-struct CornerList {
-  int count = 0;
-  std::array<int, kMaxMappedCorners> corner;
-
-  explicit CornerList(std::uint32_t set) {
+/// The corners of a set, in cyclic order.
+class CornerCycle {
+ public:
+  CornerCycle(const CornerOutline& outline, std::uint32_t set) : outline_(outline) {
     for (; set != 0; set &= set - 1)
-      corner[static_cast<std::size_t>(count++)] = std::countr_zero(set);
+      corner_[count_++] = static_cast<std::uint32_t>(std::countr_zero(set));
   }
-  [[nodiscard]] int at(int k) const {
-    return corner[static_cast<std::size_t>(k < 0 ? k + count : (k < count ? k : k - count))];
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::uint32_t set_of(std::size_t k) const { return 1U << corner_[k]; }
+  /// Twice the area of the triangle of the k-th corner and its neighbours.
+  [[nodiscard]] double twice_triangle_m2(std::size_t k) const {
+    const std::size_t before = k == 0 ? count_ - 1 : k - 1;
+    const std::size_t behind = k + 1 == count_ ? 0 : k + 1;
+    return std::abs(orientation(at(before), at(k), at(behind)));
   }
+
+ private:
+  [[nodiscard]] Point at(std::size_t k) const { return outline_.corners[corner_[k]]; }
+
+  const CornerOutline& outline_;
+  std::size_t count_ = 0;
+  std::array<std::uint32_t, kMaxMappedCorners> corner_;
 };
 
 /// The least error over the mappings that it is shown.
 class MappingSearch {
  public:
   MappingSearch(const CornerOutline& from, const CornerOutline& to, const Options& options)
-      : from_(from), to_(to), options_(options) {
-    const Corners laid_on = chosen_corners(to, all_of(to.count));
-    to_sum_ = laid_on.sum;
-    for (int k = 0; k < 2 * to.count; ++k) {
-      to_x_[static_cast<std::size_t>(k)] = laid_on.x[static_cast<std::size_t>(k % to.count)];
-      to_y_[static_cast<std::size_t>(k)] = laid_on.y[static_cast<std::size_t>(k % to.count)];
+      : from_(from),
+        to_(to),
+        options_(options),
+        distortion_factor_(1.0 - options.alpha),
+        mismatch_factor_(options.perimeter == PerimeterUnit::kRelative
+                             ? options.alpha / to.perimeter_m
+                             : options.alpha),
+        laid_on_mean_(choose(to, all_of(to.count)).mean) {
+    for (std::size_t k = 0; k < to.count; ++k) {
+      laid_on_[k] = laid_on_[k + to.count] = to.corners[k] - laid_on_mean_;
+      laid_on_squares_ += squared_length(laid_on_[k]);
     }
-    const Moments own = moments(to_x_.data(), to_y_.data(), to_sum_, laid_on);
-    to_square_sum_ = own.xx + own.yy;
-    perimeter_factor_ =
-        options.alpha *
-        (options.perimeter == PerimeterUnit::kRelative ? 1.0 / to.perimeter_m : 1.0);
-    distortion_factor_ = 1.0 - options.alpha;
   }
 
   [[nodiscard]] const VertexMapping& best() const { return best_; }
-
-  /// Every choice of corners that removals within the bound on area lead to, each once.
-  void try_all_choices(LabelRule labels) {
-    if (from_.count == to_.count) return try_shifts(all_of(from_.count), labels);
-    seen_.fill(0);
-    remove_corner(all_of(from_.count), labels);
-  }
+  [[nodiscard]] bool is_found() const { return std::isfinite(best_.error); }
+  /// Whether a mapping was rejected by labels.
+  [[nodiscard]] bool has_mismatch() const { return has_mismatch_; }
 
   /// Corner i on corner i, nothing distorted: outlines of the same corners about their means.
   void try_identity(LabelRule labels) {
     const std::uint32_t all = all_of(from_.count);
-    if (from_.count != to_.count || from_.x != to_.x || from_.y != to_.y) return;
-    if (labels == LabelRule::kMatched && !is_matched(types_of(all), 0)) return;
-    const Point mean = to_sum_ / static_cast<double>(to_.count);
-    best_ = {0.0, all, 0, Affine{}, mean, mean};
+    if (from_.count != to_.count || from_.corners != to_.corners) return;
+    if (!is_permitted(types_of(all), 0, labels)) return;
+    best_ = {0.0, all, 0, Affine{}, laid_on_mean_, laid_on_mean_};
   }
 
-  /// All cyclic shifts of a choice of corners.
-  void try_shifts(std::uint32_t chosen, LabelRule labels) {
-    const Corners corners = chosen_corners(from_, chosen);
-    const Moments own = moments(corners.x.data(), corners.y.data(), corners.sum, corners);
-    const double determinant = own.xx * own.yy - own.xy * own.yx;
-    const double trace = own.xx + own.yy;
+  /// Every choice of corners that removals within the bound on area lead to, each once.
+  void try_all_choices(LabelRule labels) {
+    if (from_.count == to_.count) return try_shifts(all_of(from_.count), labels);
+    constexpr std::size_t kWordBits = 64;
+    std::fill_n(seen_.begin(), (std::size_t{1} << from_.count) / kWordBits + 1, 0U);
+    remove_corner(all_of(from_.count), labels);
+  }
+
+  /// All cyclic shifts of a choice of corners: the least-squares map is C_ba C_aa^-1.
+  void try_shifts(std::uint32_t corners, LabelRule labels) {
+    const Choice a = choose(from_, corners);
+    const Matrix c_aa = moments(a.at.data(), a);
+    const double determinant = c_aa.determinant();
+    const double trace = c_aa.xx + c_aa.yy;
     if (!(determinant > kLineShare * trace * trace)) return;
-    const Types types = types_of(chosen);
-    for (int offset = 0; offset < to_.count; ++offset) {
-      if (labels == LabelRule::kMatched && !is_matched(types, offset)) continue;
-      try_mapping(corners, own, determinant, chosen, offset);
+    const Matrix inverse{c_aa.yy / determinant, -c_aa.xy / determinant, -c_aa.yx / determinant,
+                         c_aa.xx / determinant};
+    const Types types = types_of(corners);
+    for (std::size_t offset = 0; offset < to_.count; ++offset) {
+      if (is_permitted(types, offset, labels)) try_shift(a, inverse, offset);
     }
   }
 
   /// A similar figure of the same area, centre on centre: defined for any two outlines.
-  void try_similar_figure(std::uint32_t chosen) {
-    const Corners corners = chosen_corners(from_, chosen);
+  void try_similar_figure(std::uint32_t corners) {
+    const Choice a = choose(from_, corners);
     const double factor = std::sqrt(to_.area_m2 / from_.area_m2);
-    for (int offset = 0; offset < to_.count; ++offset)
-      take(corners, {factor, 0.0, 0.0, factor, {}}, chosen, offset);
+    for (std::size_t offset = 0; offset < to_.count; ++offset)
+      take(a, {factor, 0.0, 0.0, factor}, offset, 0.0);
   }
 
  private:
+  /// The types of chosen corners: bit k is the k-th.
   struct Types {
     std::uint32_t street = 0;
     std::uint32_t property = 0;
   };
 
-  [[nodiscard]] Types types_of(std::uint32_t chosen) const {
+  [[nodiscard]] Types types_of(std::uint32_t corners) const {
     Types out;
-    for (std::uint32_t bit = 1; chosen != 0; chosen &= chosen - 1, bit <<= 1) {
-      const std::uint32_t corner = chosen & (~chosen + 1U);
-      if ((from_.street_corners & corner) != 0) out.street |= bit;
-      if ((from_.property_corners & corner) != 0) out.property |= bit;
+    for (std::uint32_t bit = 1; corners != 0; corners &= corners - 1, bit <<= 1) {
+      const std::uint32_t first = corners & (~corners + 1U);
+      if ((from_.street_corners & first) != 0) out.street |= bit;
+      if ((from_.property_corners & first) != 0) out.property |= bit;
     }
     return out;
   }
 
-  [[nodiscard]] bool is_matched(const Types& types, int offset) const {
-    return (types.street & rotated(to_.property_corners, offset, to_.count)) == 0 &&
-           (types.property & rotated(to_.street_corners, offset, to_.count)) == 0;
+  bool is_permitted(const Types& types, std::size_t offset, LabelRule labels) {
+    if (labels == LabelRule::kIgnored) return true;
+    const bool is_matched =
+        (types.street & rotated(to_.property_corners, offset, to_.count)) == 0 &&
+        (types.property & rotated(to_.street_corners, offset, to_.count)) == 0;
+    has_mismatch_ = has_mismatch_ || !is_matched;
+    return is_matched;
   }
 
-  void remove_corner(std::uint32_t chosen, LabelRule labels) {
-    if (std::popcount(chosen) == to_.count) return try_shifts(chosen, labels);
-    const CornerList list(chosen);
+  void remove_corner(std::uint32_t corners, LabelRule labels) {
+    const CornerCycle cycle(from_, corners);
+    if (cycle.count() == to_.count) return try_shifts(corners, labels);
     const double most = 2.0 * options_.area_loss_01 * from_.corner_area_m2;
-    for (int k = 0; k < list.count; ++k) {
-      if (twice_triangle(from_, list.at(k - 1), list.at(k), list.at(k + 1)) > most) continue;
-      const std::uint32_t rest = chosen & ~(1U << list.at(k));
-      std::uint64_t& word = seen_[rest / 64U];
-      const std::uint64_t bit = std::uint64_t{1} << (rest % 64U);
-      if ((word & bit) != 0) continue;
-      word |= bit;
-      remove_corner(rest, labels);
+    for (std::size_t k = 0; k < cycle.count(); ++k) {
+      if (cycle.twice_triangle_m2(k) > most) continue;
+      const std::uint32_t rest = corners & ~cycle.set_of(k);
+      if (is_first_visit(rest)) remove_corner(rest, labels);
     }
   }
 
-  /// The least-squares map is C_ba C_aa^-1.
-  void try_mapping(const Corners& a, const Moments& c_aa, double determinant, std::uint32_t chosen,
-                   int offset) {
-    const Moments c = moments(&to_x_[static_cast<std::size_t>(offset)],
-                              &to_y_[static_cast<std::size_t>(offset)], to_sum_, a);
-    const double inverse = 1.0 / determinant;
-    const Affine map{(c.xx * c_aa.yy - c.xy * c_aa.yx) * inverse,
-                     (c.xy * c_aa.xx - c.xx * c_aa.xy) * inverse,
-                     (c.yx * c_aa.yy - c.yy * c_aa.yx) * inverse,
-                     (c.yy * c_aa.xx - c.yx * c_aa.xy) * inverse,
-                     {}};
+  bool is_first_visit(std::uint32_t corners) {
+    constexpr std::uint32_t kWordBits = 64;
+    std::uint64_t& word = seen_[corners / kWordBits];
+    const std::uint64_t bit = std::uint64_t{1} << (corners % kWordBits);
+    const bool is_first = (word & bit) == 0;
+    word |= bit;
+    return is_first;
+  }
+
+  void try_shift(const Choice& a, const Matrix& inverse, std::size_t offset) {
+    const Matrix c = moments(&laid_on_[offset], a);
+    if (!(c.determinant() > 0.0)) return;
+    const Matrix map{c.xx * inverse.xx + c.xy * inverse.yx, c.xx * inverse.xy + c.xy * inverse.yy,
+                     c.yx * inverse.xx + c.yy * inverse.yx, c.yx * inverse.xy + c.yy * inverse.yy};
     // The summed distance is at least the root of the summed squares.
-    const double residual = to_square_sum_ * (1.0 - kRoundingShare) -
-                            (map.xx * c.xx + map.xy * c.xy + map.yx * c.yx + map.yy * c.yy);
-    const double least = residual > 0.0 ? perimeter_factor_ * std::sqrt(residual) : 0.0;
-    if (least < best_.error) take(a, map, chosen, offset, least);
+    const double residual = laid_on_squares_ * (1.0 - kRoundingShare) - map.product_sum(c);
+    if (mismatch_factor_ * mismatch_factor_ * residual >= best_.error * best_.error) return;
+    take(a, map, offset, residual > 0.0 ? mismatch_factor_ * std::sqrt(residual) : 0.0);
   }
 
   /// Keeps the mapping if its error is the least so far. Terms are added up from the cheapest on,
   /// until the sum is too much.
-  void take(const Corners& a, const Affine& map, std::uint32_t chosen, int offset,
-            double least_mismatch = 0.0) {
+  void take(const Choice& a, const Matrix& map, std::size_t offset, double least_mismatch) {
     const Point u{map.xx, map.yx};
     const Point v{map.xy, map.yy};
     const double u_length = length(u);
@@ -224,63 +230,55 @@ class MappingSearch {
     // e_shear is at least the share of the right angle by which the angle differs from it, and that
     // at least 2 / pi of its sine.
     const double least_shear = 2.0 * std::numbers::inv_pi * std::abs(dot(u, v)) / lengths;
-    if (!(distortion_factor_ * (stretch + options_.shear_weight * least_shear) + least_mismatch <
-          best_.error))
-      return;
+    const double least = distortion_factor_ * (stretch + options_.shear_weight * least_shear);
+    if (!(least + least_mismatch < best_.error)) return;
     const double distortion =
         distortion_factor_ * (stretch + options_.shear_weight * shear_of(u, v));
     if (!(distortion + least_mismatch < best_.error)) return;
-    const Point a_mean = a.sum / static_cast<double>(a.count);
-    const Point b_mean = to_sum_ / static_cast<double>(a.count);
-    const double error =
-        distortion + perimeter_factor_ * mismatch_m(a, map, a_mean, b_mean, offset);
-    if (error < best_.error) best_ = {error, chosen, offset, map, a_mean, b_mean};
+    const Affine linear{map.xx, map.xy, map.yx, map.yy, {}};
+    const double error = distortion + mismatch_factor_ * mismatch_m(a, linear, offset);
+    if (error < best_.error) best_ = {error, a.corners, offset, linear, a.mean, laid_on_mean_};
   }
 
   /// Summed distance of corresponding corners, metres.
-  [[nodiscard]] double mismatch_m(const Corners& a, const Affine& map, Point a_mean, Point b_mean,
-                                  int offset) const {
+  [[nodiscard]] double mismatch_m(const Choice& a, const Affine& map, std::size_t offset) const {
     double sum = 0.0;
-    for (int k = 0; k < a.count; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const auto j = static_cast<std::size_t>(k + offset);
-      const Point image = map.linear(Point{a.x[i], a.y[i]} - a_mean);
-      sum += length(Point{to_x_[j], to_y_[j]} - b_mean - image);
-    }
+    for (std::size_t k = 0; k < a.count; ++k)
+      sum += length(laid_on_[k + offset] - map.linear(a.at[k]));
     return sum;
   }
 
   const CornerOutline& from_;
   const CornerOutline& to_;
   const Options& options_;
-  // The second outline's corners, twice: a shift is where one begins.
-  std::array<double, 2 * kMaxMappedCorners> to_x_;
-  std::array<double, 2 * kMaxMappedCorners> to_y_;
-  Point to_sum_;
-  double to_square_sum_;
-  double perimeter_factor_;
   double distortion_factor_;
-  // One bit per set of corners.
-  std::array<std::uint64_t, (1U << kMaxMappedCorners) / 64U> seen_;
+  double mismatch_factor_;
+  // The corners laid on about their mean, twice: a shift is where one begins.
+  std::array<Point, 2 * kMaxMappedCorners> laid_on_;
+  Point laid_on_mean_;
+  double laid_on_squares_ = 0.0;
+  bool has_mismatch_ = false;
   VertexMapping best_;
+  // One bit per set of corners; only as many as needed are cleared.
+  std::array<std::uint64_t, (std::size_t{1} << kMaxMappedCorners) / 64 + 1> seen_;
 };
 
 /// The corners that are left when those of the smallest triangles are removed one by one.
-std::uint32_t largest_corners(const CornerOutline& outline, int count) {
-  std::uint32_t chosen = all_of(outline.count);
-  while (std::popcount(chosen) > count) {
-    const CornerList list(chosen);
-    int least = 0;
-    const auto triangle = [&](int k) {
-      return static_cast<float>(
-          twice_triangle(outline, list.at(k - 1), list.at(k), list.at(k + 1)));
+std::uint32_t largest_corners(const CornerOutline& outline, std::size_t count) {
+  std::uint32_t corners = all_of(outline.count);
+  for (std::size_t left = outline.count; left > count; --left) {
+    const CornerCycle cycle(outline, corners);
+    // Single precision: of triangles that are equal but for rounding, the first.
+    const auto triangle = [&](std::size_t k) {
+      return static_cast<float>(cycle.twice_triangle_m2(k));
     };
-    for (int k = 1; k < list.count; ++k) {
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < left; ++k) {
       if (triangle(k) < triangle(least)) least = k;
     }
-    chosen &= ~(1U << list.at(least));
+    corners &= ~cycle.set_of(least);
   }
-  return chosen;
+  return corners;
 }
 
 }  // namespace
@@ -288,20 +286,19 @@ std::uint32_t largest_corners(const CornerOutline& outline, int count) {
 VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline& to,
                                   const Options& options) {
   MappingSearch search(from, to, options);
-  const auto is_found = [&] { return std::isfinite(search.best().error); };
-  int given_up = 0;
   search.try_identity(options.labels);
-  if (is_found()) return search.best();
+  if (search.is_found()) return search.best();
+  int given_up = 0;
   search.try_all_choices(options.labels);
-  if (!is_found()) {
+  if (!search.is_found()) {
     ++given_up;
-    if (options.labels == LabelRule::kMatched) search.try_all_choices(LabelRule::kIgnored);
+    if (search.has_mismatch()) search.try_all_choices(LabelRule::kIgnored);
   }
-  if (!is_found()) {
+  if (!search.is_found()) {
     ++given_up;
     search.try_shifts(largest_corners(from, to.count), LabelRule::kIgnored);
   }
-  if (!is_found()) {
+  if (!search.is_found()) {
     ++given_up;
     search.try_similar_figure(largest_corners(from, to.count));
   }

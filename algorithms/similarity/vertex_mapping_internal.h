@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -12,7 +13,7 @@ namespace plat::similarity::detail {
 struct VertexMapping {
   double error = std::numeric_limits<double>::infinity();
   std::uint32_t chosen = 0;
-  int offset = 0;
+  std::size_t offset = 0;
   /// From the first outline's frame to that of the second, each about the mean of its mapped
   /// corners.
   Affine linear;

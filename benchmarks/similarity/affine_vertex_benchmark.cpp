@@ -44,7 +44,8 @@ std::vector<AffineVertexSimilarity::Prepared> shapes(const AffineVertexSimilarit
     const auto polygon = admit_polygon({ring, {}}, 100);
     if (!polygon) continue;
     const auto prepared = measure.prepare({*polygon, {}, ""});
-    if (prepared && prepared->outline.count == corners) out.push_back(*prepared);
+    if (prepared && prepared->outline.count == static_cast<std::size_t>(corners))
+      out.push_back(*prepared);
   }
   return out;
 }

@@ -284,7 +284,7 @@ TEST(AffineVertexSimilarity, IsFiniteForAnyPair) {
         for (const LabelledShape& other : shapes) {
           const auto a = measure.prepare(shapes[i]).value();
           const auto b = measure.prepare(other).value();
-          EXPECT_LE(a.outline.count, corners);
+          EXPECT_LE(a.outline.count, static_cast<std::size_t>(corners));
           const double d = measure.distance(a, b);
           EXPECT_TRUE(std::isfinite(d) && d >= 0.0) << i << ' ' << d;
         }
