@@ -28,7 +28,8 @@ void label_corners(const LabelledShape& shape, const std::vector<std::size_t>& c
   }
 }
 
-/// The direction in which points about their mean spread most; east where there is none.
+/// The direction in which points about their mean spread most; east where they spread alike in all,
+/// as the corners of a square do.
 Point principal_axis(const Ring& about_mean) {
   double xx = 0.0;
   double xy = 0.0;
@@ -38,6 +39,8 @@ Point principal_axis(const Ring& about_mean) {
     xy += p.x * p.y;
     yy += p.y * p.y;
   }
+  constexpr double kRoundingShare = 1e-9;  // of moments of coordinates far from the origin
+  if (std::hypot(2.0 * xy, xx - yy) <= kRoundingShare * (xx + yy)) return {1.0, 0.0};
   const double angle_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
   return {std::cos(angle_rad), std::sin(angle_rad)};
 }
@@ -97,7 +100,7 @@ ShapeComparison AffineVertexSimilarity::compare(const Prepared& a, const Prepare
   const CornerOutline& from = is_inverted ? b.outline : a.outline;
   const CornerOutline& to = is_inverted ? a.outline : b.outline;
   const VertexMapping mapping = detail::best_vertex_mapping(from, to, options_);
-  ShapeComparison out{mapping.error, map_of(mapping, from, to), {}};
+  ShapeComparison out{mapping.error, std::nullopt, {}};
   std::size_t k = 0;
   for (std::uint32_t rest = mapping.chosen; rest != 0; rest &= rest - 1, ++k) {
     const Point corner = corner_of(from, static_cast<std::size_t>(std::countr_zero(rest)));
@@ -105,10 +108,14 @@ ShapeComparison AffineVertexSimilarity::compare(const Prepared& a, const Prepare
     out.correspondence.emplace_back(is_inverted ? laid_on : corner, is_inverted ? corner : laid_on);
   }
   if (is_inverted) {
-    out.transformation = out.transformation->inverse();
     // In the order of the first outline, which is the one laid on.
     const auto first = static_cast<std::ptrdiff_t>((to.count - mapping.offset) % to.count);
     std::ranges::rotate(out.correspondence, out.correspondence.begin() + first);
+  }
+  if (mapping.is_least_squares) {
+    // The inverse of the best map is not the best map of the inverse, and may be far from it.
+    out.transformation =
+        is_inverted ? detail::least_squares_map(out.correspondence) : map_of(mapping, from, to);
   }
   return out;
 }

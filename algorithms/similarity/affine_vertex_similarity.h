@@ -48,13 +48,14 @@ enum class DistortionFrame : std::uint8_t { kCityAxes, kTileAxes };
 /// same area on the other, centre on centre), each for kRelaxationPenalty more;  3. at most
 /// max_corners over max_corners / 2 choices of corners, times cyclic shifts, are looked at: 5,544
 /// mappings for 12;  4. an outline on itself: 0 to the last bit.
-/// The correspondence is of corners; the transformation does not mirror.
+/// The correspondence is of corners; the transformation is the affine map of least squares on it,
+/// and does not mirror; there is none where the affine map was given up.
 /// Complexity: prepare O(n log n); a pair of 4- to 8-gons 0.3 to 5 us
 /// Paper:      [ABVA08, Sec. 5, Eq. 4 and 5]
 /// Deviation:  outlines of more than `max_corners` are simplified, holes are not looked at; a
 ///             removal that adds area counts as one that takes it; e_perimeter is relative to the
 ///             perimeter laid on, unless metres are asked for; where `a` has fewer corners than
-///             `b`, `b` is laid on `a`, and the map inverted; what is done where all mappings are
+///             `b`, the distance is that of `b` laid on `a`; what is done where all mappings are
 ///             rejected (ADR 0034)
 class AffineVertexSimilarity {
  public:

@@ -1,7 +1,10 @@
 #include "similarity/outline_corners.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -14,8 +17,11 @@ namespace {
 class Thinning {
  public:
   explicit Thinning(std::span<const Point> ring)
-      : ring_(ring), before_(ring.size()), after_(ring.size()), size_(ring.size()) {
-    first_ = static_cast<std::size_t>(std::ranges::min_element(ring) - ring.begin());
+      : ring_(ring),
+        area_m2_(std::abs(signed_area_m2(ring))),
+        first_(static_cast<std::size_t>(std::ranges::min_element(ring) - ring.begin())),
+        before_(ring.size()),
+        after_(ring.size()) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       before_[i] = (i + ring.size() - 1) % ring.size();
       after_[i] = (i + 1) % ring.size();
@@ -24,7 +30,8 @@ class Thinning {
   }
 
   [[nodiscard]] std::size_t size() const { return order_.size(); }
-  [[nodiscard]] double least_m2() const { return order_.begin()->first; }
+  /// Of the smallest triangle in the ring.
+  [[nodiscard]] float least_rough_share() const { return order_.begin()->first; }
 
   void drop_least() {
     const std::size_t i = vertex(*order_.begin());
@@ -39,41 +46,51 @@ class Thinning {
     order_.insert(key(after));
   }
 
+  /// From the first vertex on.
   [[nodiscard]] std::vector<std::size_t> rest() const {
-    std::vector<std::size_t> out;
-    for (const Key& k : order_) out.push_back(k.second);
-    std::ranges::sort(out);
-    for (std::size_t& i : out) i = (i + first_) % size_;
-    return out;
+    std::vector<std::size_t> places;
+    for (const Key& k : order_) places.push_back(k.second);
+    std::ranges::sort(places);
+    for (std::size_t& place : places) place = (place + first_) % ring_.size();
+    return places;
   }
 
  private:
-  /// The triangle in single precision, so that triangles that are equal but for rounding are equal;
-  /// then the place behind the first vertex, so that the ring's beginning does not matter.
+  /// The triangle's share of the ring, then the place behind the first vertex, so that the ring's
+  /// beginning does not matter.
   using Key = std::pair<float, std::size_t>;
   [[nodiscard]] Key key(std::size_t i) const {
-    const double triangle_m2 =
-        0.5 * std::abs(orientation(ring_[before_[i]], ring_[i], ring_[after_[i]]));
-    return {static_cast<float>(triangle_m2), (i + size_ - first_) % size_};
+    const double twice_m2 = std::abs(orientation(ring_[before_[i]], ring_[i], ring_[after_[i]]));
+    return {rough_share(0.5 * twice_m2 / area_m2_), (i + ring_.size() - first_) % ring_.size()};
   }
-  [[nodiscard]] std::size_t vertex(const Key& k) const { return (k.second + first_) % size_; }
+  [[nodiscard]] std::size_t vertex(const Key& k) const {
+    return (k.second + first_) % ring_.size();
+  }
 
   std::span<const Point> ring_;
+  double area_m2_;
+  std::size_t first_;
   std::vector<std::size_t> before_;
   std::vector<std::size_t> after_;
-  std::size_t size_;
-  std::size_t first_;
   std::set<Key> order_;
 };
 
 }  // namespace
 
+float rough_share(double share_01) {
+  // Sixteen binary digits, of the share over pi: a simple share, as one eighth, lies on no cut.
+  constexpr std::uint32_t kLeadingDigits = 0xffffff00U;
+  const auto digits =
+      std::bit_cast<std::uint32_t>(static_cast<float>(share_01 * std::numbers::inv_pi));
+  return std::bit_cast<float>(digits & kLeadingDigits);
+}
+
 std::vector<std::size_t> outline_corners(std::span<const Point> ring, std::size_t max_count) {
   constexpr std::size_t kTriangle = 3;
-  const double flat_m2 = kFlatShare_01 * std::abs(signed_area_m2(ring));
   Thinning thinning(ring);
-  while (thinning.size() > kTriangle &&
-         (thinning.size() > max_count || thinning.least_m2() <= flat_m2)) {
+  while (
+      thinning.size() > kTriangle &&
+      (thinning.size() > max_count || thinning.least_rough_share() <= rough_share(kFlatShare_01))) {
     thinning.drop_least();
   }
   return thinning.rest();

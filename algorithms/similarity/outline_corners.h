@@ -13,6 +13,10 @@ namespace plat::similarity {
 /// 500 m2; the smallest jog of a survey has a hundred times more.
 inline constexpr double kFlatShare_01 = 1e-4;
 
+/// Sorts shares of an area: monotone, and so rough that shares that are equal but for rounding are
+/// equal, whatever the scale.
+float rough_share(double share_01);
+
 /// The corners of an outline: vertices are dropped, that of the smallest triangle with its
 /// neighbours first, while that triangle is flat or more than `max_count` are left; three always
 /// stay.

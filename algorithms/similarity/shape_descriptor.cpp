@@ -1,18 +1,24 @@
 #include "similarity/shape_descriptor.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "similarity/outline_corners.h"
-
 namespace plat::similarity {
+namespace {
+
+Ring turning_vertices(const Ring& outline) {
+  Ring out;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    if (std::abs(turn_rad(outline, i)) > kStraightTurn_rad) out.push_back(outline[i]);
+  }
+  constexpr std::size_t kTriangle = 3;
+  return out.size() < kTriangle ? outline : out;
+}
+
+}  // namespace
 
 ShapeDescriptor descriptor_of(const LabelledShape& shape) {
-  const Ring& outline = shape.polygon.outer;
-  Ring corners;
-  for (const std::size_t i : outline_corners(outline, std::numeric_limits<std::size_t>::max()))
-    corners.push_back(outline[i]);
+  const Ring corners = turning_vertices(shape.polygon.outer);
   const auto count = static_cast<double>(corners.size());
   const double mean = std::numbers::pi * (count - 2.0) / count;
   double squares = 0.0;

@@ -12,7 +12,7 @@ namespace plat::similarity {
 struct ShapeDescriptor {
   std::string zone;                  ///< z; empty where unknown
   double area_m2 = 0.0;              ///< a, without holes
-  int corner_count = 0;              ///< n, of the outline (outline_corners.h)
+  int corner_count = 0;              ///< n, vertices of the outline that turn
   double mean_angle_rad = 0.0;       ///< mu, of the interior angles at the corners
   double angle_deviation_rad = 0.0;  ///< sigma, of the same, over all n
 
@@ -28,7 +28,13 @@ struct DescriptorWeights {
   double angle_deviation = 1.0;  ///< per radian
 };
 
-/// The descriptor of a valid polygon.
+/// A vertex that turns by less is none: one on a straight edge that was rounded to the working
+/// grid, a metre or more from its neighbours, turns by at most this. Each vertex is judged alone,
+/// so that the count is the same for a shape turned or mirrored.
+inline constexpr double kStraightTurn_rad = 2e-3;
+
+/// The descriptor of a valid polygon. An outline that nowhere turns by more counts all its
+/// vertices.
 ///
 /// Guarantees: 1. the same for every position, direction and mirror image, up to rounding;  2. the
 /// mean angle is (n - 2) pi / n, which the angles of any n-gon sum up to: it tells nothing that n

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "similarity/affine_distortion.h"
+#include "similarity/outline_corners.h"
 #include "similarity/vertex_mapping_internal.h"
 
 namespace plat::similarity::detail {
@@ -34,6 +35,24 @@ struct Matrix {
   double yy = 0.0;
 
   [[nodiscard]] double determinant() const { return xx * yy - xy * yx; }
+  /// Adds p q^T.
+  void add(Point p, Point q) {
+    xx += p.x * q.x;
+    xy += p.x * q.y;
+    yx += p.y * q.x;
+    yy += p.y * q.y;
+  }
+  /// Of second moments; nullopt where the points lie on a line.
+  [[nodiscard]] std::optional<Matrix> inverse_of_moments() const {
+    const double d = determinant();
+    const double trace = xx + yy;
+    if (!(d > kLineShare * trace * trace)) return std::nullopt;
+    return Matrix{yy / d, -xy / d, -yx / d, xx / d};
+  }
+  friend Matrix operator*(const Matrix& a, const Matrix& b) {
+    return {a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx,
+            a.yx * b.xy + a.yy * b.yy};
+  }
   [[nodiscard]] double product_sum(const Matrix& other) const {
     return xx * other.xx + xy * other.xy + yx * other.yx + yy * other.yy;
   }
@@ -51,12 +70,7 @@ struct Choice {
 /// means, whatever the mean of p, as that of q is zero.
 Matrix moments(const Point* p, const Choice& q) {
   Matrix m;
-  for (std::size_t k = 0; k < q.count; ++k) {
-    m.xx += p[k].x * q.at[k].x;
-    m.xy += p[k].x * q.at[k].y;
-    m.yx += p[k].y * q.at[k].x;
-    m.yy += p[k].y * q.at[k].y;
-  }
+  for (std::size_t k = 0; k < q.count; ++k) m.add(p[k], q.at[k]);
   return m;
 }
 
@@ -138,15 +152,11 @@ class MappingSearch {
   /// All cyclic shifts of a choice of corners: the least-squares map is C_ba C_aa^-1.
   void try_shifts(std::uint32_t corners, LabelRule labels) {
     const Choice a = choose(from_, corners);
-    const Matrix c_aa = moments(a.at.data(), a);
-    const double determinant = c_aa.determinant();
-    const double trace = c_aa.xx + c_aa.yy;
-    if (!(determinant > kLineShare * trace * trace)) return;
-    const Matrix inverse{c_aa.yy / determinant, -c_aa.xy / determinant, -c_aa.yx / determinant,
-                         c_aa.xx / determinant};
+    const auto inverse = moments(a.at.data(), a).inverse_of_moments();
+    if (!inverse) return;
     const Types types = types_of(corners);
     for (std::size_t offset = 0; offset < to_.count; ++offset) {
-      if (is_permitted(types, offset, labels)) try_shift(a, inverse, offset);
+      if (is_permitted(types, offset, labels)) try_shift(a, *inverse, offset);
     }
   }
 
@@ -207,8 +217,7 @@ class MappingSearch {
   void try_shift(const Choice& a, const Matrix& inverse, std::size_t offset) {
     const Matrix c = moments(&laid_on_[offset], a);
     if (!(c.determinant() > 0.0)) return;
-    const Matrix map{c.xx * inverse.xx + c.xy * inverse.yx, c.xx * inverse.xy + c.xy * inverse.yy,
-                     c.yx * inverse.xx + c.yy * inverse.yx, c.yx * inverse.xy + c.yy * inverse.yy};
+    const Matrix map = c * inverse;
     // The summed distance is at least the root of the summed squares.
     const double residual = laid_on_squares_ * (1.0 - kRoundingShare) - map.product_sum(c);
     if (mismatch_factor_ * mismatch_factor_ * residual >= best_.error * best_.error) return;
@@ -268,9 +277,8 @@ std::uint32_t largest_corners(const CornerOutline& outline, std::size_t count) {
   std::uint32_t corners = all_of(outline.count);
   for (std::size_t left = outline.count; left > count; --left) {
     const CornerCycle cycle(outline, corners);
-    // Single precision: of triangles that are equal but for rounding, the first.
     const auto triangle = [&](std::size_t k) {
-      return static_cast<float>(cycle.twice_triangle_m2(k));
+      return rough_share(0.5 * cycle.twice_triangle_m2(k) / outline.corner_area_m2);
     };
     std::size_t least = 0;
     for (std::size_t k = 1; k < left; ++k) {
@@ -298,13 +306,36 @@ VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline
     ++given_up;
     search.try_shifts(largest_corners(from, to.count), LabelRule::kIgnored);
   }
-  if (!search.is_found()) {
+  const bool is_least_squares = search.is_found();
+  if (!is_least_squares) {
     ++given_up;
     search.try_similar_figure(largest_corners(from, to.count));
   }
   VertexMapping best = search.best();
+  best.is_least_squares = is_least_squares;
   best.error += given_up * AffineVertexSimilarity::kRelaxationPenalty;
   return best;
+}
+
+std::optional<Affine> least_squares_map(const std::vector<std::pair<Point, Point>>& pairs) {
+  Point from_mean;
+  Point to_mean;
+  for (const auto& [from, to] : pairs) {
+    from_mean = from_mean + from / static_cast<double>(pairs.size());
+    to_mean = to_mean + to / static_cast<double>(pairs.size());
+  }
+  Matrix own;
+  Matrix c;
+  for (const auto& [from, to] : pairs) {
+    own.add(from - from_mean, from - from_mean);
+    c.add(to - to_mean, from - from_mean);
+  }
+  const auto inverse = own.inverse_of_moments();
+  if (!inverse) return std::nullopt;
+  const Matrix map = c * *inverse;
+  Affine out{map.xx, map.xy, map.yx, map.yy, {}};
+  out.shift = to_mean - out.linear(from_mean);
+  return out;
 }
 
 }  // namespace plat::similarity::detail

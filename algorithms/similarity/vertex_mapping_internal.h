@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "similarity/affine_vertex_similarity.h"
 
@@ -19,11 +22,16 @@ struct VertexMapping {
   Affine linear;
   Point from_mean;  ///< of the chosen corners, in the frame
   Point to_mean;
+  bool is_least_squares = true;  ///< false where the affine map was given up
 };
 
 /// The mapping of least error, rules given up one by one where all are rejected.
 /// Pre: from.count >= to.count >= 3.
 VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline& to,
                                   const AffineVertexSimilarity::Options& options);
+
+/// The affine map that carries the first points to the second ones with the least sum of squared
+/// distances; nullopt where the first ones lie on a line.
+std::optional<Affine> least_squares_map(const std::vector<std::pair<Point, Point>>& pairs);
 
 }  // namespace plat::similarity::detail
