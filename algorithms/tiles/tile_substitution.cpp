@@ -18,8 +18,9 @@ namespace {
 /// A corner of the piece and a vertex of the hole as near as this along the outline become one, as
 /// near vertices do in the one-time simplification.
 constexpr double kNear_m = 2.0;
-/// A vertex of the piece that only divides a straight edge is taken up where the hole has one here.
-constexpr double kNearOnEdge_m = 0.05;
+/// A vertex of the piece that only divides a straight edge is taken up where the hole has one as
+/// near as this: what pasting back finds again after the neighbours have moved a little.
+constexpr double kNearOnEdge_m = 0.5;
 
 using RingKey = std::pair<std::uint32_t, std::uint32_t>;  ///< tile and ring
 
