@@ -17,6 +17,9 @@ constexpr std::size_t kSamples = 72;
 constexpr double kAsGood_01 = 1e-3;
 /// Anchors nearer than this to each other are one: a grid step.
 constexpr double kSamePlace_m = 1.0 / 1024.0;
+/// Another alignment is preferred to the similarity's where it is as much nearer: a measure that
+/// forgives stretching may lay a long side on a short one.
+constexpr double kMuchNearer_01 = 0.7;
 /// Corners of aligned outlines correspond where they are at most this share of the outline apart.
 constexpr double kCornerReach_01 = 0.06;
 /// A corner turns by more than this.
@@ -201,15 +204,36 @@ double ArcMap::from(double t) const {
   return ArcMap(to_total_m_, from_total_m_, std::move(turned)).to(t);
 }
 
+namespace {
+
+/// Root mean square distance of corresponding points.
+double misfit_m(const OutlineMatch& match, const ArcLength& from, const ArcLength& to) {
+  const ArcMap map(from.total_m(), to.total_m(), match.anchors);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kSamples; ++k) {
+    const double s = static_cast<double>(k) / static_cast<double>(kSamples) * from.total_m();
+    sum += squared_length(match.motion(from.point(s)) - to.point(map.to(s)));
+  }
+  return std::sqrt(sum / static_cast<double>(kSamples));
+}
+
+}  // namespace
+
 OutlineMatch match_outlines(const similarity::ShapeComparison& comparison, const ArcLength& from,
                             const ArcLength& to, const Affine& as_placed) {
-  OutlineMatch out;
-  out.motion = motion_of(comparison, from, to, as_placed);
+  const Affine aligned = best_alignment(from, to, as_placed);
+  OutlineMatch out{aligned, aligned_anchors(aligned, from, to)};
+  if (!comparison.correspondence.empty() || comparison.transformation) {
+    OutlineMatch similar{motion_of(comparison, from, to, as_placed), {}};
+    similar.anchors = comparison.correspondence.empty()
+                          ? aligned_anchors(similar.motion, from, to)
+                          : anchors_of(comparison.correspondence, from, to);
+    if (misfit_m(out, from, to) >= kMuchNearer_01 * misfit_m(similar, from, to))
+      out = std::move(similar);
+  }
   const bool is_as_placed = std::ranges::all_of(
       from.ring(), [&](Point p) { return distance(out.motion(p), as_placed(p)) < kUnmoved_m; });
   if (is_as_placed) out.motion = as_placed;
-  out.anchors = comparison.correspondence.empty() ? aligned_anchors(out.motion, from, to)
-                                                  : anchors_of(comparison.correspondence, from, to);
   return out;
 }
 

@@ -35,9 +35,9 @@ struct OutlineMatch {
   std::vector<ArcMap::Anchor> anchors;
 };
 
-/// The rigid motion nearest to what the similarity found, and what corresponds. A measure without
-/// transformation or correspondence is helped by the cyclic alignment of both outlines, as long as
-/// each other, that leaves the least squares; of alignments as good, by the one turned least
+/// The rigid motion nearest to what the similarity found, and what corresponds there; or, for a
+/// measure without both, or where it is much nearer, the cyclic alignment of both outlines, as long
+/// as each other, that leaves the least squares: of alignments as good, the one turned least
 /// against `as_placed`.
 /// Deviation: the paper does not say how position and orientation are computed (ADR 0039).
 OutlineMatch match_outlines(const similarity::ShapeComparison& comparison, const ArcLength& from,

@@ -17,6 +17,8 @@ namespace {
 constexpr int kSamplesAcross = 16;
 /// Less of a piece on tiles is a paste on a street, on water or across a border.
 constexpr double kOnTiles_01 = 0.5;
+/// Of unions that overlap the piece this much as well as the best does, the most similar is taken.
+constexpr double kOverlap_01 = 0.75;
 /// A union this many times as large as the piece is not grown further.
 constexpr double kMuchLarger = 1.5;
 
@@ -148,23 +150,37 @@ Expected<Destination> find_destination(const TileLayout& layout, const Piece& pi
   const std::uint32_t seed = seed_of(layout, under, center);
   const EdgeMap edges = edges_of_block(layout, layout.tiles[seed].block);
   std::set<std::uint32_t> members{seed};
-  std::optional<Destination> best;
-  for (;;) {
+  struct Union {
+    Destination destination;
+    double overlap_01;  // intersection over union
+  };
+  std::vector<Union> unions;
+  const double piece_area = area_m2(piece.shape.polygon);
+  std::size_t common = 0;
+  for (std::optional<std::uint32_t> next = seed; next;) {
+    members.insert(*next);
+    if (const auto found = under.find(*next); found != under.end()) common += found->second;
     const std::vector<std::uint32_t> candidate(members.begin(), members.end());
     double area = 0.0;
+    for (const std::uint32_t i : candidate)
+      area += area_m2(plat::tiles::shape_of(layout, layout.tiles[i]));
     if (const auto outline = outline_of(layout, candidate)) {
-      const similarity::LabelledShape shape = shape_of(layout, *outline, edges);
-      area = area_m2(shape.polygon);
-      if (const auto place = measure.prepare(shape)) {
-        auto comparison = measure.compare(*prepared, *place);
-        if (!best || comparison.distance < best->comparison.distance)
-          best = Destination{candidate, std::move(comparison)};
-      }
+      const double both =
+          piece_area * static_cast<double>(common) / static_cast<double>(points.size());
+      if (const auto place = measure.prepare(shape_of(layout, *outline, edges)))
+        unions.push_back(
+            {{candidate, measure.compare(*prepared, *place)}, both / (area + piece_area - both)});
     }
-    if (area > kMuchLarger * area_m2(piece.shape.polygon)) break;
-    const auto next = next_of(members, edges, under);
-    if (!next) break;
-    members.insert(*next);
+    if (area > kMuchLarger * piece_area) break;
+    next = next_of(members, edges, under);
+  }
+  double most = 0.0;
+  for (const Union& u : unions) most = std::max(most, u.overlap_01);
+  std::optional<Destination> best;
+  for (Union& u : unions) {
+    if (u.overlap_01 < kOverlap_01 * most) continue;
+    if (!best || u.destination.comparison.distance < best->comparison.distance)
+      best = std::move(u.destination);
   }
   if (!best)
     return fail(FailureCode::kNoPlace,

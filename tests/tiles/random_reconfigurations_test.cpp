@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 
+#include "similarity/shape_similarity.h"
 #include "support/property.h"
 #include "tiles/reconfiguration_support.h"
 
@@ -42,7 +43,8 @@ class Script {
 
 Expected<Reconfiguration> Script::operation(std::size_t kind) {
   ReconfigurationOptions options = small_city_options();
-  options.similarity = rng_.index(2) == 0 ? "box" : "descriptor";
+  const auto measures = similarity::shape_similarities().names();
+  options.similarity = measures[rng_.index(measures.size())];
   options.solver.keep_size = rng_.uniform_01();
   options.pasted = rng_.index(2) == 0 ? PastedTiles::kHeld : PastedTiles::kFree;
   if (rng_.index(4) == 0)

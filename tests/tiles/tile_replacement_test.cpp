@@ -11,7 +11,7 @@ using namespace plat::testing;  // NOLINT: the support of this test
 
 ReconfigurationOptions replacing() {
   ReconfigurationOptions options = small_city_options();
-  options.similarity = "box";
+  options.similarity = "affine_vertex";
   options.reach_m.reset();
   options.replacement = ReplacementOptions{
       .deformation_threshold = 0.05, .gap_threshold_m = 1.0, .candidates = 5, .max_rounds = 4};
