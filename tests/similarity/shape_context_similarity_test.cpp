@@ -1,8 +1,10 @@
 #include "similarity/shape_context_similarity.h"
 
 #include "similarity/cyclic_warping.h"
+#include "similarity/hausdorff_similarity.h"
 #include "similarity/made_shapes.h"
 #include "similarity/rigid_alignment.h"
+#include "similarity/turning_similarity.h"
 #include "support/property.h"
 
 namespace plat::similarity {
@@ -156,6 +158,27 @@ TEST(ShapeContextSimilarity, EverySampleOfBothOutlinesCorresponds) {
   };
   are_met(a.outline, [](const auto& pair) { return pair.first; });
   are_met(b.outline, [](const auto& pair) { return pair.second; });
+}
+
+TEST(AnyShapeSimilarity, SaysOfEveryOutlineMeasureWhatTheTypeItselfSays) {
+  Rng rng = property_rng("AnyShapeSimilarity.Same");
+  const auto check = [&](const auto& measure) {
+    const AnyShapeSimilarity any(measure);
+    for (int i = 0; i < 5; ++i) {
+      const LabelledShape a = made_shape(rng);
+      const LabelledShape b = made_shape(rng);
+      const ShapeComparison direct = measure.compare(*measure.prepare(a), *measure.prepare(b));
+      const ShapeComparison erased = any.compare(*any.prepare(a), *any.prepare(b));
+      EXPECT_EQ(any.distance(*any.prepare(a), *any.prepare(b)), direct.distance);
+      EXPECT_EQ(erased.distance, direct.distance);
+      EXPECT_EQ(erased.transformation, direct.transformation);
+      EXPECT_EQ(erased.correspondence, direct.correspondence);
+    }
+    EXPECT_EQ(any.claims().rotation, measure.claims().rotation);
+  };
+  check(ShapeContextSimilarity({.samples = 40}));
+  check(TurningSimilarity({}));
+  check(HausdorffSimilarity({}));
 }
 
 // ---- the motion of least squares ----
