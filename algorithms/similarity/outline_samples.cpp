@@ -28,11 +28,19 @@ std::size_t first_vertex(const OutlineWalk& walk, Point centroid, std::size_t co
   const double tie = kTie_01 * walk.length_m();
   keep_largest(starts, tie,
                [&](std::size_t vertex) { return distance(walk.places()[vertex], centroid); });
+  // Samples as seen from the centroid towards the start, ahead and to the left: a mirror image has
+  // the same distances only.
   const double step_m = walk.length_m() / static_cast<double>(count);
-  for (std::size_t i = 1; i < count && starts.size() > 1; ++i)
-    keep_largest(starts, tie, [&](std::size_t vertex) {
-      return distance(walk.at(walk.start_m(vertex) + static_cast<double>(i) * step_m), centroid);
-    });
+  for (std::size_t i = 1; i < count && starts.size() > 1; ++i) {
+    const auto seen = [&](std::size_t vertex) {
+      const Point ahead = normalized(walk.places()[vertex] - centroid);
+      const Point sample =
+          walk.at(walk.start_m(vertex) + static_cast<double>(i) * step_m) - centroid;
+      return Point{dot(ahead, sample), cross(ahead, sample)};
+    };
+    keep_largest(starts, tie, [&](std::size_t vertex) { return seen(vertex).x; });
+    keep_largest(starts, tie, [&](std::size_t vertex) { return seen(vertex).y; });
+  }
   return starts.front();
 }
 

@@ -15,13 +15,13 @@ struct OutlineSamples {
   Point centroid;             ///< of the outline's area, relative to `origin`
 };
 
-/// Samples an outline uniformly. The first sample is the vertex farthest from the centroid; of
-/// several that one from which the following samples are farthest, in lexicographic order.
+/// Samples an outline uniformly. The first sample is the vertex farthest from the centroid; several
+/// are told apart by how the following samples lie as seen from the centroid towards the first.
 ///
 /// Guarantees: 1. sample i lies i / count of the outline's length behind the first;  2. the samples
 /// of an outline that is moved, turned, begun at another vertex or that has more vertices on its
-/// edges are the same points of it, up to rounding; where a symmetry of the outline leaves several
-/// choices, they are the images of each other under it.
+/// edges are the same points of it, up to rounding; where a rotation of the outline onto itself
+/// leaves several choices, they are the images of each other under it.
 /// Pre: a simple ring with an area, count > 0.
 /// Complexity:  O(n + count log n), times the vertices that tie
 OutlineSamples outline_samples(std::span<const Point> ring, std::size_t count);

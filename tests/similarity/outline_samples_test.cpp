@@ -69,6 +69,18 @@ TEST(OutlineSamples, AreTheSameOfAnOutlineTurnedOrToldOtherwise) {
   }
 }
 
+/// Four samples lie at the same distances from the middle whichever corner is the first; from
+/// neighbouring corners they are mirror images.
+TEST(OutlineSamples, MirrorImagesAreToldApart) {
+  const Ring ring{{0, 0}, {6, 0}, {6, 2}, {0, 2}};
+  for (std::ptrdiff_t by = 0; by < 4; ++by) {
+    Ring begun = ring;
+    std::ranges::rotate(begun, begun.begin() + by);
+    const OutlineSamples samples = outline_samples(begun, 4);
+    EXPECT_DOUBLE_EQ(distance(samples.places[0], samples.places[1]), std::sqrt(8.0)) << by;
+  }
+}
+
 TEST(OutlineSamples, BeginAtTheFarthestVertexThatIsFollowedByTheFarthestSamples) {
   // All corners of a rectangle are as far from its middle; behind two of them runs a short side, at
   // the end of which one is as far again.
