@@ -117,7 +117,6 @@ TEST(RandomReconfigurations, EveryStateIsALayout) {
     refused += city.refused();
     for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] += city.done_by_kind()[k];
   }
-  std::printf("done %d refused %d kinds %d %d %d %d %d %d %d\n", done, refused, kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], kinds[5], kinds[6]);
   EXPECT_GT(done, refused);
   for (const int count : kinds) EXPECT_GT(count, 10);
 }
