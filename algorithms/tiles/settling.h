@@ -6,12 +6,14 @@
 
 namespace plat::tiles {
 
-/// Closes the gaps that placements leave: every vertex goes to the mean of where its tiles would
-/// have it, rounded to the working grid. What imagery and everything on output sees.
+/// Closes the gaps that placements leave: every joint goes to the mean of where its tiles would
+/// have it; every other vertex to the mean of where they would have it were they bent to those
+/// joints, evenly along the ring in between. Rounded to the working grid. What imagery and
+/// everything on output sees.
 ///
 /// Guarantees: 1. tiles of a block have the same vertices along common boundaries, whatever the
-/// placements;  2. a vertex on which its tiles agree stands where they have it, to half a grid
-/// step;  3. settling twice is settling once. Complexity: O(n).
+/// placements;  2. where all tiles agree, vertices stand where they have them, to a grid step;  3.
+/// settling twice is settling once. Complexity: O(n).
 /// Paper: [ABVA08, Sec. 6], the simplification is undone: all vertices move, joints or not.
 TileLayout settled(TileLayout layout);
 

@@ -19,6 +19,8 @@ constexpr int kSamplesAcross = 16;
 constexpr double kOnTiles_01 = 0.5;
 /// Of unions that overlap the piece this much as well as the best does, the most similar is taken.
 constexpr double kOverlap_01 = 0.75;
+/// A neighbour of which less lies under the piece is not merged.
+constexpr double kUnderPiece_01 = 0.3;
 /// A union this many times as large as the piece is not grown further.
 constexpr double kMuchLarger = 1.5;
 
@@ -86,10 +88,13 @@ std::uint32_t seed_of(const TileLayout& layout, const std::map<std::uint32_t, st
   return best;
 }
 
-/// The neighbour of the union that lies under most of the piece.
-std::optional<std::uint32_t> next_of(const std::set<std::uint32_t>& members, const EdgeMap& edges,
-                                     const std::map<std::uint32_t, std::size_t>& under) {
+/// The neighbour of the union of whose land most lies under the piece; none where that is little.
+std::optional<std::uint32_t> next_of(const TileLayout& layout,
+                                     const std::set<std::uint32_t>& members, const EdgeMap& edges,
+                                     const std::map<std::uint32_t, std::size_t>& under,
+                                     double area_of_point_m2) {
   std::optional<std::uint32_t> best;
+  double most = kUnderPiece_01;
   for (const auto& [edge, place] : edges) {
     if (!members.contains(place.tile)) continue;
     const auto beyond = edges.find({edge.second, edge.first});
@@ -97,9 +102,12 @@ std::optional<std::uint32_t> next_of(const std::set<std::uint32_t>& members, con
     const std::uint32_t tile = beyond->second.tile;
     const auto found = under.find(tile);
     if (found == under.end()) continue;
-    if (!best || found->second > under.at(*best) ||
-        (found->second == under.at(*best) && tile < *best))
+    const double share = static_cast<double>(found->second) * area_of_point_m2 /
+                         area_m2(plat::tiles::shape_of(layout, layout.tiles[tile]));
+    if (share > most || (best && share == most && tile < *best)) {
       best = tile;
+      most = share;
+    }
   }
   return best;
 }
@@ -172,7 +180,7 @@ Expected<Destination> find_destination(const TileLayout& layout, const Piece& pi
             {{candidate, measure.compare(*prepared, *place)}, both / (area + piece_area - both)});
     }
     if (area > kMuchLarger * piece_area) break;
-    next = next_of(members, edges, under);
+    next = next_of(layout, members, edges, under, piece_area / static_cast<double>(points.size()));
   }
   double most = 0.0;
   for (const Union& u : unions) most = std::max(most, u.overlap_01);

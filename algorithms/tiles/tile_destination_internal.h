@@ -33,8 +33,8 @@ struct Destination {
 
 /// The tile under the middle of the piece, or a union of it with its neighbours under the piece:
 /// of those that overlap the piece about as well as the best does, the most similar. Neighbours are
-/// merged in the order of how much of the piece they lie under, until the union is much larger than
-/// the piece.
+/// merged in the order of how much of them lies under the piece, until the union is much larger
+/// than the piece.
 /// @param kept  ids of tiles that are not to be replaced, ascending
 /// Failure kNoPlace: less than half of the piece lies on tiles, or on none that can be replaced.
 /// Paper: [ABVA08, Sec. 5], 1-to-many; which tiles are merged is not said there (ADR 0039).
