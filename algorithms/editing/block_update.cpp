@@ -183,6 +183,7 @@ EditReport BlockUpdate::finish(const std::map<StreetId, StreetId>& split_from) {
   const City& city = change_.city();
   const auto matching = city.options().matching;
   auto divided = parallel_map<Divided>(divisions_.size(), city.options().jobs, [&](std::size_t i) {
+    if (city.tiles()) return Divided{};  // the tiles are the land
     Divided out = divide(divisions_[i]);
     match(divisions_[i], split_from, matching, out);
     return out;

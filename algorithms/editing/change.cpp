@@ -47,6 +47,10 @@ void Change::set(WalkId id, Walk record) {
 void Change::set(BlockId id, CityBlock record) {
   log(delta_.blocks, city_.blocks_, id, std::make_shared<const CityBlock>(std::move(record)));
 }
+void Change::set(std::shared_ptr<const tiles::TileLayout> layout) {
+  delta_.tiles_after = layout;
+  city_.tiles_ = std::move(layout);
+}
 void Change::erase(NodeId id) { log(delta_.nodes, city_.nodes_, id, {}); }
 void Change::erase(StreetId id) {
   log(delta_.streets, city_.streets_, id, {});
@@ -78,6 +82,7 @@ void Change::revert(City& city, const Delta& delta) {
   back(delta.sides, city.sides_);
   back(delta.walks, city.walks_);
   back(delta.blocks, city.blocks_);
+  city.tiles_ = delta.tiles_before;
   city.counters_ = delta.counters_before;
 }
 
@@ -90,6 +95,7 @@ void Change::replay(City& city, const Delta& delta) {
   forth(delta.sides, city.sides_);
   forth(delta.walks, city.walks_);
   forth(delta.blocks, city.blocks_);
+  city.tiles_ = delta.tiles_after;
   city.counters_ = delta.counters_after;
 }
 

@@ -20,6 +20,8 @@ struct Delta {
   std::vector<Entry<StreetId, StreetSides>> sides;
   std::vector<Entry<WalkId, Walk>> walks;
   std::vector<Entry<BlockId, CityBlock>> blocks;
+  std::shared_ptr<const tiles::TileLayout> tiles_before;
+  std::shared_ptr<const tiles::TileLayout> tiles_after;
   IdCounters counters_before;
   IdCounters counters_after;
 };
@@ -32,6 +34,7 @@ class Change {
  public:
   explicit Change(City& city) : city_(city) {
     delta_.counters_before = delta_.counters_after = city.counters_;
+    delta_.tiles_before = delta_.tiles_after = city.tiles_;
   }
   ~Change() {
     if (!is_kept_) revert(city_, delta_);
@@ -54,6 +57,7 @@ class Change {
   void set(StreetId id, StreetSides record);
   void set(WalkId id, Walk record);
   void set(BlockId id, CityBlock record);
+  void set(std::shared_ptr<const tiles::TileLayout> layout);
   void erase(NodeId id);
   void erase(StreetId id);
   void erase(WalkId id);

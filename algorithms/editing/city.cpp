@@ -65,6 +65,22 @@ City make_city(const streets::StreetNetwork& network, const CityOptions& options
   return city;
 }
 
+City with_tiles(City city, tiles::TileLayout layout) {
+  Change change(city);
+  change.set(std::make_shared<const tiles::TileLayout>(std::move(layout)));
+  std::vector<BlockId> blocks;
+  city.blocks().for_each([&](BlockId id, const CityBlock&) { blocks.push_back(id); });
+  for (const BlockId id : blocks) {
+    CityBlock block = city.blocks().at(id);
+    block.parcels.clear();
+    block.records.clear();
+    block.failure.reset();
+    change.set(id, std::move(block));
+  }
+  change.keep();
+  return city;
+}
+
 City with_options(City city, const CityOptions& options) {
   city.options_ = options;
   return city;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +23,7 @@
 #include "parcels/parcel_matching.h"
 #include "streets/street_classes.h"
 #include "streets/street_network.h"
+#include "tiles/tile_layout.h"
 
 namespace plat::editing {
 
@@ -125,8 +127,9 @@ struct IdCounters {
 ///
 /// Invariants: 1. streets meet at nodes only, and noding them (node_segments) leaves them as they
 /// are;  2. the blocks are those of blocks::extract_blocks() on network_of(), bit for bit;  3. the
-/// parcels of a block are a coverage of it, or it has a failure;  4. ids of nodes, streets, blocks
-/// and parcels are kept by edits and never used again.
+/// parcels of a block are a coverage of it, or it has a failure, or the city has tiles and its
+/// blocks no parcels;  4. ids of nodes, streets, blocks, parcels and tiles are kept by edits and
+/// never used again.
 /// Deviation: faces and dual are kept, not recomputed each time (ADR 0012).
 class City {
  public:
@@ -139,6 +142,8 @@ class City {
   [[nodiscard]] const CityOptions& options() const { return options_; }
   [[nodiscard]] const IdCounters& counters() const { return counters_; }
   [[nodiscard]] const StreetGrid& grid() const { return grid_; }
+  /// The land of a city whose blocks are not divided by rule (ADR 0040); null where they are.
+  [[nodiscard]] const std::shared_ptr<const tiles::TileLayout>& tiles() const { return tiles_; }
 
   [[nodiscard]] NodeId origin_of(HalfEdge h) const {
     const CityStreet& street = streets_.at(street_of(h));
@@ -161,6 +166,7 @@ class City {
   Table<WalkId, Walk> walks_;
   Table<BlockId, CityBlock> blocks_;
   StreetGrid grid_;  ///< of the lines of streets_
+  std::shared_ptr<const tiles::TileLayout> tiles_;
 };
 
 /// The style of each block when a city is made; the city's own where it returns none.
@@ -172,6 +178,10 @@ using StyleOf = std::function<std::optional<Style>(const blocks::Block&)>;
 City make_city(const streets::StreetNetwork& network, const CityOptions& options,
                streets::BoundingClasses bounding = streets::BoundingClasses::kStreets,
                const StyleOf& style_of = {});
+
+/// The same city with tiles as its land: its blocks lose their parcels, and are not divided by rule
+/// any more. A city of tiles may have no street at all.
+City with_tiles(City city, tiles::TileLayout layout);
 
 /// The same city, divided and matched by other options from now on.
 City with_options(City city, const CityOptions& options);

@@ -86,7 +86,7 @@ bool is_noded(const City& city) {
 }  // namespace
 
 CityParts parts_of(const City& city) {
-  CityParts out{city.options(), city.counters(), {}, {}, {}};
+  CityParts out{city.options(), city.counters(), {}, {}, {}, city.tiles()};
   city.nodes().for_each(
       [&](NodeId id, const CityNode& node) { out.nodes.emplace_back(id, node.position); });
   city.streets().for_each(
@@ -101,6 +101,7 @@ Expected<City> restore_city(const CityParts& parts) {
   IdCounters counters = parts.counters;
   counters.walk = 0;
   change.reserve(counters);
+  change.set(parts.tiles);
   detail::NetworkEdit edit(change);
   for (const auto& [id, position] : parts.nodes) edit.insert(id, position);
   for (const auto& [id, street] : parts.streets) edit.insert(id, street);

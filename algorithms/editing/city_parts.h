@@ -14,6 +14,7 @@ struct CityParts {
   std::vector<std::pair<NodeId, Point>> nodes;
   std::vector<std::pair<StreetId, CityStreet>> streets;  ///< lines are not needed
   std::vector<CityBlock> blocks;                         ///< edges are not needed
+  std::shared_ptr<const tiles::TileLayout> tiles;
 };
 
 CityParts parts_of(const City& city);

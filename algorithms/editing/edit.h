@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "editing/city.h"
+#include "tiles/reconfiguration.h"
 
 /// The edits of a city. Distances in metres, angles in radians; points are rounded to the working
 /// grid. docs/edit_script.md has an example of each.
@@ -82,8 +84,51 @@ struct SetParcelAttribute {
   std::optional<std::string> value;
 };
 
+// Edits of tiles, in a city that has them [ABVA08, Sec. 4]. Streets beside tiles go along
+// (street_following.h).
+
+/// Moves tiles by a map of the plane and pins them there; the others make room.
+struct MoveTiles {
+  std::vector<tiles::TileId> tiles;
+  Affine motion;
+  tiles::ReconfigurationOptions options;
+};
+
+/// Puts a group of tiles down where `to` carries it.
+struct PasteTiles {
+  std::shared_ptr<const tiles::TileGroup> group;
+  Affine to;
+  tiles::ReconfigurationOptions options;
+};
+
+struct CutTiles {
+  std::vector<tiles::TileId> tiles;
+  tiles::VacatedLand land = tiles::VacatedLand::kVacant;
+  tiles::ReconfigurationOptions options;
+};
+
+enum class Pinning { kPinned, kFree };
+
+/// Says whether edits may move tiles that they do not name. Moves nothing.
+struct PinTiles {
+  std::vector<tiles::TileId> tiles;
+  Pinning pinning = Pinning::kPinned;
+};
+
+/// Replaces deformed tiles by similar ones.
+struct ReplaceTiles {
+  tiles::ReplacementOptions replacement;
+  tiles::ReconfigurationOptions options;
+};
+
+/// Solves again with the pins as they are.
+struct RelaxTiles {
+  tiles::ReconfigurationOptions options;
+};
+
 using Edit = std::variant<MoveNode, MoveStreet, BendStreet, AddStreet, RemoveStreet, SetStreetWidth,
-                          SetBlockStyle, ScaleNodes, RotateNodes, SetParcelAttribute>;
+                          SetBlockStyle, ScaleNodes, RotateNodes, SetParcelAttribute, MoveTiles,
+                          PasteTiles, CutTiles, PinTiles, ReplaceTiles, RelaxTiles>;
 
 /// "move_node", "add_street", ...: as scripts name them, in the order of the variant.
 std::string_view edit_name(const Edit& edit);

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 
+#include "core/working_grid.h"
 #include "editing/block_update_internal.h"
 #include "editing/network_edit_internal.h"
+#include "editing/street_following.h"
 #include "parcels/block_subdivider.h"
 
 namespace plat::editing {
@@ -148,6 +152,48 @@ class Application {
     return report;
   }
 
+  Expected<EditReport> operator()(const MoveTiles& edit) {
+    return reconfigured([&](const tiles::TileLayout& layout) {
+      return tiles::move_tiles(layout, edit.tiles, edit.motion, edit.options);
+    });
+  }
+
+  Expected<EditReport> operator()(const PasteTiles& edit) {
+    expects(edit.group != nullptr, "there are tiles to paste");
+    return reconfigured([&](const tiles::TileLayout& layout) {
+      return tiles::paste_tiles(layout, *edit.group, edit.to, edit.options);
+    });
+  }
+
+  Expected<EditReport> operator()(const CutTiles& edit) {
+    return reconfigured([&](const tiles::TileLayout& layout) {
+      return tiles::cut_tiles(layout, edit.tiles, edit.land, edit.options);
+    });
+  }
+
+  Expected<EditReport> operator()(const PinTiles& edit) {
+    if (!city().tiles()) return without_tiles();
+    auto layout = std::make_shared<tiles::TileLayout>(*city().tiles());
+    for (const tiles::TileId id : edit.tiles) {
+      const auto index = tiles::find_tile(*layout, id);
+      if (!index) return unknown("tile", id.value);
+      layout->tiles[*index].is_pinned = edit.pinning == Pinning::kPinned;
+    }
+    change_.set(std::move(layout));
+    return EditReport{};
+  }
+
+  Expected<EditReport> operator()(const ReplaceTiles& edit) {
+    return reconfigured([&](const tiles::TileLayout& layout) {
+      return tiles::replace_deformed_tiles(layout, edit.replacement, edit.options);
+    });
+  }
+
+  Expected<EditReport> operator()(const RelaxTiles& edit) {
+    return reconfigured(
+        [&](const tiles::TileLayout& layout) { return tiles::relax(layout, edit.options); });
+  }
+
  private:
   static constexpr double kMaxSnap_m = 100.0;
   static constexpr double kMaxTurn_rad = 10.0;
@@ -181,6 +227,38 @@ class Application {
     return settled();
   }
 
+  static tl::unexpected<Failure> without_tiles() {
+    return fail(FailureCode::kUnknownEntity, "the city has no tiles");
+  }
+
+  /// An operation on the tiles; the streets beside those that move go along.
+  template <class Operation>
+  Expected<EditReport> reconfigured(Operation operation) {
+    const std::shared_ptr<const tiles::TileLayout> before = city().tiles();
+    if (!before) return without_tiles();
+    Expected<tiles::Reconfiguration> done = operation(*before);
+    if (!done) return tl::unexpected<Failure>(std::move(done.error()));
+    const StreetFollowing following(*before, done->layout);
+    change_.set(std::make_shared<const tiles::TileLayout>(std::move(done->layout)));
+    const std::map<StreetId, double> wider = width_changes(city(), *before, following);
+    for (const auto& [street, change_m] : wider) {
+      const double width_m = city().streets().at(street).width_m + change_m;
+      network_.resize(street, std::clamp(width_m, kMinStreetWidth_m, kMaxStreetWidth_m),
+                      streets::WidthSource::kGap);
+    }
+    std::vector<NodeId> moving;
+    city().nodes().for_each([&](NodeId id, const CityNode& node) {
+      if (snap(following(node.position)) != node.position) moving.push_back(id);
+    });
+    network_.move_nodes(moving, [&](Point p) { return following(p); });
+    Expected<EditReport> report = settled();
+    if (!report) return report;
+    report->tiles = std::move(done->report);
+    report->nodes_moved = moving.size();
+    report->streets_resized = wider.size();
+    return report;
+  }
+
   Expected<EditReport> settled() {
     auto outcome = network_.settle();
     if (!outcome) return tl::unexpected<Failure>(std::move(outcome.error()));
@@ -198,7 +276,9 @@ class Application {
 std::string_view edit_name(const Edit& edit) {
   constexpr std::array<std::string_view, std::variant_size_v<Edit>> kNames{
       "move_node",        "move_street",     "bend_street", "add_street",   "remove_street",
-      "set_street_width", "set_block_style", "scale_nodes", "rotate_nodes", "set_parcel_attribute"};
+      "set_street_width", "set_block_style", "scale_nodes", "rotate_nodes", "set_parcel_attribute",
+      "move_tiles",       "paste_tiles",     "cut_tiles",   "pin_tiles",    "replace_tiles",
+      "relax_tiles"};
   return kNames[edit.index()];
 }
 

@@ -113,10 +113,10 @@ void NetworkEdit::bend(StreetId id, const std::optional<Curve>& curve) {
   change_.set(id, with_line(std::move(street)));
 }
 
-void NetworkEdit::resize(StreetId id, double width_m) {
+void NetworkEdit::resize(StreetId id, double width_m, streets::WidthSource source) {
   CityStreet street = city().streets().at(id);
   street.width_m = width_m;
-  street.width_source = streets::WidthSource::kAttribute;
+  street.width_source = source;
   touch(id);
   resized_.insert(id);
   change_.set(id, std::move(street));

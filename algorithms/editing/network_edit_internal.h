@@ -32,7 +32,8 @@ class NetworkEdit {
   using Transform = std::function<Point(Point)>;
   void move_nodes(std::span<const NodeId> nodes, const Transform& transform);
   void bend(StreetId street, const std::optional<Curve>& curve);
-  void resize(StreetId street, double width_m);
+  void resize(StreetId street, double width_m,
+              streets::WidthSource source = streets::WidthSource::kAttribute);
   void remove(StreetId street);
   Expected<void> add(const AddStreet& edit);
   /// Joins `node`, where it comes nearer than `snap_m` to another node or street, to that one;

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/tile_document.h"
+
 namespace plat::harness {
 namespace {
 
@@ -32,7 +34,8 @@ Layer document_layer(const editing::City& city, const geodata::LocalFrame& frame
                {"next_node", FieldType::kInteger},
                {"next_street", FieldType::kInteger},
                {"next_block", FieldType::kInteger},
-               {"next_parcel", FieldType::kInteger}},
+               {"next_parcel", FieldType::kInteger},
+               {"next_tile", FieldType::kInteger}},
               {}};
   const editing::CityOptions& options = city.options();
   const editing::IdCounters& ids = city.counters();
@@ -45,7 +48,9 @@ Layer document_layer(const editing::City& city, const geodata::LocalFrame& frame
                         number(ids.node),
                         number(ids.street),
                         number(ids.block),
-                        number(ids.parcel)};
+                        number(ids.parcel),
+                        {}};
+  if (city.tiles()) feature.attributes.back() = number(city.tiles()->next_id);
   add(layer, std::move(feature));
   return layer;
 }
@@ -179,8 +184,13 @@ Layer failures_layer(const editing::City& city, const geodata::LocalFrame& frame
 }  // namespace
 
 std::vector<Layer> city_layers(const editing::City& city, const geodata::LocalFrame& frame) {
-  return {document_layer(city, frame), streets_layer(city, frame), blocks_layer(city, frame),
-          parcels_layer(city, frame), failures_layer(city, frame)};
+  std::vector<Layer> out{document_layer(city, frame), streets_layer(city, frame),
+                         blocks_layer(city, frame), parcels_layer(city, frame)};
+  if (city.tiles()) {
+    for (Layer& layer : tile_document_layers(*city.tiles(), frame)) out.push_back(std::move(layer));
+  }
+  out.push_back(failures_layer(city, frame));
+  return out;
 }
 
 }  // namespace plat::harness

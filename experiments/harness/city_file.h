@@ -15,7 +15,8 @@ struct PlacedCity {
   geodata::LocalFrame frame;
 };
 
-/// The layers of a city: document, streets, blocks, parcels, failures (docs/edit_script.md).
+/// The layers of a city: document, streets, blocks, parcels, those of its tiles where it has any
+/// (tile_document.h), failures (docs/edit_script.md).
 /// Reading them back gives the same city.
 std::vector<geodata::Layer> city_layers(const editing::City& city,
                                         const geodata::LocalFrame& frame);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,6 +8,8 @@
 #include "editing/city_parts.h"
 #include "geodata/layer_io.h"
 #include "harness/city_file.h"
+#include "harness/layer_rows_internal.h"
+#include "harness/tile_document.h"
 #include "parcels/block_subdivider.h"
 #include "streets/network_cleaning.h"
 #include "streets/street_import.h"
@@ -21,91 +22,22 @@ using geodata::Feature;
 using geodata::GeometryKind;
 using geodata::Layer;
 
-/// Fields of a layer by name, with errors that say file, layer and feature.
-class Rows {
- public:
-  Rows(const std::string& file, Layer layer) : file_(file), layer_(std::move(layer)) {
-    for (std::size_t i = 0; i < layer_.fields.size(); ++i) index_[layer_.fields[i].name] = i;
+editing::Style style_of(const LayerRows& rows, const Feature& feature, std::string_view strategy,
+                        std::string_view options) {
+  editing::Style out{rows.text(feature, strategy), {}};
+  const std::string given = options.empty() ? std::string() : rows.text(feature, options);
+  for (std::size_t start = 0; start < given.size();) {
+    const std::size_t end = std::min(given.find(';', start), given.size());
+    auto [key, value] = parse_option(std::string_view(given).substr(start, end - start));
+    out.options.insert_or_assign(std::move(key), std::move(value));
+    start = end + 1;
   }
-
-  [[nodiscard]] const Layer& layer() const { return layer_; }
-
-  [[noreturn]] void refuse(const Feature& feature, std::string_view what) const {
-    throw InputError(fmt::format("{}:{}: feature {}: {}", file_, layer_.name, feature.id, what));
+  try {
+    static_cast<void>(parcels::block_subdividers().make(out.strategy, out.options));
+  } catch (const InputError& error) {
+    rows.refuse(feature, error.what());
   }
-  [[nodiscard]] bool has(std::string_view field) const { return index_.contains(field); }
-  [[nodiscard]] const geodata::Attribute& at(const Feature& feature, std::string_view field) const {
-    const auto it = index_.find(field);
-    if (it == index_.end())
-      throw InputError(fmt::format("{}:{}: no field \"{}\"", file_, layer_.name, field));
-    return feature.attributes[it->second];
-  }
-  [[nodiscard]] std::string text(const Feature& feature, std::string_view field) const {
-    const auto* value = std::get_if<std::string>(&at(feature, field));
-    return value == nullptr ? std::string() : *value;
-  }
-  [[nodiscard]] std::optional<double> real(const Feature& feature, std::string_view field) const {
-    const geodata::Attribute& value = at(feature, field);
-    if (const auto* number = std::get_if<double>(&value)) return *number;
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-    return std::nullopt;
-  }
-  [[nodiscard]] std::optional<std::uint32_t> id(const Feature& feature,
-                                                std::string_view field) const {
-    const auto* value = std::get_if<std::int64_t>(&at(feature, field));
-    if (value == nullptr) return std::nullopt;
-    constexpr std::int64_t kMaxId = 100'000'000;  // ids index tables
-    if (*value < 0 || *value > kMaxId)
-      refuse(feature, fmt::format("{} = {}, allowed 0..{}", field, *value, kMaxId));
-    return static_cast<std::uint32_t>(*value);
-  }
-  [[nodiscard]] std::uint32_t needed_id(const Feature& feature, std::string_view field) const {
-    const auto value = id(feature, field);
-    if (!value) refuse(feature, fmt::format("{} must be a whole number", field));
-    return *value;
-  }
-  [[nodiscard]] std::uint64_t seed(const Feature& feature) const {
-    const std::string given = text(feature, "seed");
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
-    if (error != std::errc{} || end != given.data() + given.size())
-      refuse(feature, fmt::format("seed \"{}\" must be a whole number", given));
-    return value;
-  }
-  [[nodiscard]] editing::Style style(const Feature& feature, std::string_view strategy,
-                                     std::string_view options) const {
-    editing::Style out{text(feature, strategy), {}};
-    std::string given = options.empty() ? std::string() : text(feature, options);
-    for (std::size_t start = 0; start < given.size();) {
-      const std::size_t end = std::min(given.find(';', start), given.size());
-      auto [key, value] = parse_option(std::string_view(given).substr(start, end - start));
-      out.options.insert_or_assign(std::move(key), std::move(value));
-      start = end + 1;
-    }
-    try {
-      static_cast<void>(parcels::block_subdividers().make(out.strategy, out.options));
-    } catch (const InputError& error) {
-      refuse(feature, error.what());
-    }
-    return out;
-  }
-
- private:
-  const std::string& file_;
-  Layer layer_;
-  std::map<std::string, std::size_t, std::less<>> index_;
-};
-
-Rows read_rows(const std::string& file, const std::string& name, GeometryKind kind,
-               const std::optional<geodata::LocalFrame>& frame) {
-  return {file, geodata::read_layer({file, name}, {.frame = frame, .kind = kind})};
-}
-
-bool has_features(const std::string& file, std::string_view name) {
-  for (const geodata::LayerInfo& layer : geodata::list_layers(file)) {
-    if (layer.name == name) return layer.feature_count != 0;
-  }
-  return false;
+  return out;
 }
 
 streets::WidthSource width_source_named(std::string_view name) {
@@ -118,10 +50,10 @@ streets::WidthSource width_source_named(std::string_view name) {
   return WidthSource::kNone;
 }
 
-void read_document(const Rows& rows, editing::CityParts& parts) {
+void read_document(const LayerRows& rows, editing::CityParts& parts) {
   const Feature& feature = rows.layer().features.front();
   parts.options.seed = rows.seed(feature);
-  parts.options.style = rows.style(feature, "strategy", "options");
+  parts.options.style = style_of(rows, feature, "strategy", "options");
   const std::string matching = rows.text(feature, "matching");
   const auto known = parcels::matching_named(matching);
   if (!known) rows.refuse(feature, fmt::format("matching \"{}\" is not known", matching));
@@ -130,7 +62,7 @@ void read_document(const Rows& rows, editing::CityParts& parts) {
                     rows.needed_id(feature, "next_block"), rows.needed_id(feature, "next_parcel")};
 }
 
-void read_streets(const Rows& rows, editing::CityParts& parts) {
+void read_streets(const LayerRows& rows, editing::CityParts& parts) {
   std::map<editing::NodeId, Point> nodes;
   std::set<StreetId> seen;
   for (const Feature& feature : rows.layer().features) {
@@ -166,13 +98,13 @@ void read_streets(const Rows& rows, editing::CityParts& parts) {
   parts.nodes.assign(nodes.begin(), nodes.end());
 }
 
-void read_blocks(const Rows& rows, editing::CityParts& parts) {
+void read_blocks(const LayerRows& rows, editing::CityParts& parts) {
   for (const Feature& feature : rows.layer().features) {
     if (feature.polygons.size() != 1) rows.refuse(feature, "must be one polygon");
     editing::CityBlock block;
     block.block.id = BlockId{rows.needed_id(feature, "block")};
     block.block.contour = feature.polygons.front();
-    block.style = rows.style(feature, "strategy", "options");
+    block.style = style_of(rows, feature, "strategy", "options");
     block.seed = rows.seed(feature);
     if (const auto code = rows.id(feature, "code"))
       block.failure = Failure{static_cast<FailureCode>(*code), rows.text(feature, "message")};
@@ -180,7 +112,7 @@ void read_blocks(const Rows& rows, editing::CityParts& parts) {
   }
 }
 
-void read_parcels(const Rows& rows, editing::CityParts& parts) {
+void read_parcels(const LayerRows& rows, editing::CityParts& parts) {
   std::map<std::uint32_t, editing::CityBlock*> homes;
   for (editing::CityBlock& block : parts.blocks) {
     if (!homes.emplace(block.block.id.value, &block).second)
@@ -206,16 +138,21 @@ void read_parcels(const Rows& rows, editing::CityParts& parts) {
 }
 
 PlacedCity restore(const std::string& file, const editing::CityOptions& options) {
-  const Rows document = read_rows(file, "document", GeometryKind::kPoint, std::nullopt);
+  const LayerRows document = read_rows(file, "document", GeometryKind::kPoint, std::nullopt);
   const geodata::LocalFrame frame = document.layer().frame;
   editing::CityParts parts;
   parts.options.jobs = options.jobs;
   read_document(document, parts);
-  read_streets(read_rows(file, "streets", GeometryKind::kLine, frame), parts);
+  if (has_features(file, "streets"))
+    read_streets(read_rows(file, "streets", GeometryKind::kLine, frame), parts);
   if (has_features(file, "blocks"))
     read_blocks(read_rows(file, "blocks", GeometryKind::kPolygon, frame), parts);
   if (has_features(file, "parcels"))
     read_parcels(read_rows(file, "parcels", GeometryKind::kPolygon, frame), parts);
+  if (const auto next_tile = document.has("next_tile")
+                                 ? document.id(document.layer().features.front(), "next_tile")
+                                 : std::nullopt)
+    parts.tiles = std::make_shared<const tiles::TileLayout>(read_tiles(file, frame, *next_tile));
   auto city = editing::restore_city(parts);
   if (!city) {
     throw InputError(
@@ -227,7 +164,7 @@ PlacedCity restore(const std::string& file, const editing::CityOptions& options)
 }
 
 /// The style of the feature of the file's blocks that a block's inner point lies in.
-editing::StyleOf styles_of(const Rows& rows, const CityReading& reading) {
+editing::StyleOf styles_of(const LayerRows& rows, const CityReading& reading) {
   struct Known {
     Box box;
     Polygon shape;
@@ -237,7 +174,7 @@ editing::StyleOf styles_of(const Rows& rows, const CityReading& reading) {
   for (const Feature& feature : rows.layer().features) {
     for (const Polygon& shape : feature.polygons) {
       known->push_back({box_of(shape), shape,
-                        rows.style(feature, reading.strategy_field, reading.options_field)});
+                        style_of(rows, feature, reading.strategy_field, reading.options_field)});
     }
   }
   return [known](const blocks::Block& block) -> std::optional<editing::Style> {
