@@ -18,6 +18,7 @@ void add_tiles_command(CLI::App& app, Action& action);
 void add_exemplar_command(CLI::App& app, Action& action);
 void add_subdivide_command(CLI::App& app, Action& action);
 void add_edit_command(CLI::App& app, Action& action);
+void add_reconfigure_command(CLI::App& app, Action& action);
 void add_synthesize_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);

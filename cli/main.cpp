@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   plat::cli::add_subdivide_command(app, action);
   plat::cli::add_synthesize_command(app, action);
   plat::cli::add_edit_command(app, action);
+  plat::cli::add_reconfigure_command(app, action);
   plat::cli::add_compare_command(app, action);
   plat::cli::add_measures_command(app, action);
   plat::cli::add_run_command(app, action);

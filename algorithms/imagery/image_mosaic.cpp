@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/failure.h"
+#include "imagery/drawing_windows_internal.h"
 #include "imagery/image_warp.h"
 
 namespace plat::imagery {
@@ -13,18 +14,10 @@ using geodata::PixelWindow;
 using geodata::Raster;
 using geodata::RasterGrid;
 
-/// Side of the windows that are composed at once, pixels: a canvas of 16 MB; changes no pixel.
-constexpr std::size_t kTile = 1024;
-
 /// Bilinear samples reach one source pixel further, and a target pixel's area reaches further
 /// still where the image is made smaller.
 double source_margin_m(const RasterGrid& target, const RasterGrid& source) {
   return 2.0 * source.pixel_m + target.pixel_m;
-}
-
-bool meets(const PixelWindow& a, const PixelWindow& b) {
-  return a.column < b.column + b.width && b.column < a.column + a.width &&
-         a.row < b.row + b.height && b.row < a.row + a.height;
 }
 
 /// Where the targets lie, in pixels of the grid.
@@ -35,19 +28,11 @@ std::vector<PixelWindow> windows_of(const MosaicInput& input, const RasterGrid& 
   return windows;
 }
 
-void copy_into(Raster& image, const PixelWindow& whole, const Raster& tile,
-               const PixelWindow& window) {
-  for (std::size_t r = 0; r < window.height; ++r) {
-    std::copy_n(tile.pixels.begin() + static_cast<std::ptrdiff_t>(r * window.width), window.width,
-                &image.at(window.column - whole.column, window.row - whole.row + r));
-  }
-}
-
 Raster draw_tile(const MosaicInput& input, const std::vector<PixelWindow>& places,
                  const RasterGrid& grid, const PixelWindow& window) {
   CoverageCanvas canvas(grid, window);
   for (std::size_t i = 0; i < input.targets.size(); ++i) {
-    if (!input.plan[i] || !meets(places[i], window)) continue;
+    if (!input.plan[i] || !detail::meets(places[i], window)) continue;
     const ParcelImage& image = *input.plan[i];
     const SharedImage& file = *input.images[image.example];
     const Raster source = file.read(source_box(image.grid, source_margin_m(grid, file.grid())));
@@ -55,28 +40,6 @@ Raster draw_tile(const MosaicInput& input, const std::vector<PixelWindow>& place
     draw_parcel(input.targets[i].polygon, WarpMap(image.grid), source, canvas);
   }
   return canvas.over(input.ground(window));
-}
-
-std::vector<PixelWindow> tiles_of(const PixelWindow& window) {
-  std::vector<PixelWindow> tiles;
-  for (std::size_t row = 0; row < window.height; row += kTile) {
-    for (std::size_t column = 0; column < window.width; column += kTile) {
-      tiles.push_back({window.column + column, window.row + row,
-                       std::min(kTile, window.width - column),
-                       std::min(kTile, window.height - row)});
-    }
-  }
-  return tiles;
-}
-
-Raster draw(const MosaicInput& input, const std::vector<PixelWindow>& places,
-            const RasterGrid& grid, const PixelWindow& window, Jobs jobs) {
-  Raster image = geodata::empty_raster(grid, window);
-  const std::vector<PixelWindow> tiles = tiles_of(window);
-  parallel_for(tiles.size(), jobs, [&](std::size_t i) {
-    copy_into(image, window, draw_tile(input, places, grid, tiles[i]), tiles[i]);
-  });
-  return image;
 }
 
 }  // namespace
@@ -116,21 +79,19 @@ GroundPainter plain_ground(const RasterGrid& grid, geodata::Colour colour) {
 
 Raster draw_mosaic(const MosaicInput& input, const RasterGrid& grid, const PixelWindow& window,
                    Jobs jobs) {
-  return draw(input, windows_of(input, grid), grid, window, jobs);
+  const std::vector<PixelWindow> places = windows_of(input, grid);
+  return detail::draw_windows(grid, window, jobs, [&](const PixelWindow& part) {
+    return draw_tile(input, places, grid, part);
+  });
 }
 
 void write_mosaic(const std::string& path, const MosaicInput& input, const RasterGrid& grid,
                   const geodata::RasterWriteOptions& options, Jobs jobs, Progress::Style style) {
   expects(input.plan.size() == input.targets.size(), "the plan has an entry per target");
-  geodata::RasterWriter writer(path, grid, options);
   const std::vector<PixelWindow> places = windows_of(input, grid);
-  Progress progress("imagery", (grid.height + kTile - 1) / kTile, style);
-  for (std::size_t row = 0; row < grid.height; row += kTile) {
-    writer.write(
-        draw(input, places, grid, {0, row, grid.width, std::min(kTile, grid.height - row)}, jobs));
-    progress.step();
-  }
-  writer.finish();
+  detail::write_windows(path, grid, options, jobs, style, [&](const PixelWindow& part) {
+    return draw_tile(input, places, grid, part);
+  });
 }
 
 }  // namespace plat::imagery

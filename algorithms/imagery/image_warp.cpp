@@ -46,6 +46,24 @@ void add_bilinear(const Raster& image, double x, double y, Sample& sum) {
   if (right > 0.0 && down > 0.0) add(next_column, next_row, right * down);
 }
 
+/// @param source_of  SourcePoint(Point, std::size_t& guess), the guess kept along a row
+template <class SourceOf>
+void draw(const Polygon& target, const Raster& source, CoverageCanvas& canvas,
+          const SourceOf& source_of) {
+  const geodata::RasterGrid& grid = canvas.grid();
+  for_each_covered_row(target, grid, canvas.window(), [&](const CoveredRow& covered) {
+    std::size_t guess = 0;
+    const double y = grid.top_m - (static_cast<double>(covered.row) + 0.5) * grid.pixel_m;
+    for (std::size_t i = 0; i < covered.cover.size(); ++i) {
+      if (covered.cover[i] == 0) continue;
+      const std::size_t column = covered.column + i;
+      const double x = grid.left_m + (static_cast<double>(column) + 0.5) * grid.pixel_m;
+      const Sample sample = sample_area(source, source_of({x, y}, guess), grid.pixel_m);
+      if (sample.weight > 0.0) canvas.add(column, covered.row, sample.colour, covered.cover[i]);
+    }
+  });
+}
+
 }  // namespace
 
 Sample sample_area(const Raster& source, const SourcePoint& at, double pixel_m) {
@@ -110,17 +128,14 @@ Raster CoverageCanvas::over(const Raster& ground) const {
 
 void draw_parcel(const Polygon& target, const WarpMap& map, const Raster& source,
                  CoverageCanvas& canvas) {
-  const geodata::RasterGrid& grid = canvas.grid();
-  for_each_covered_row(target, grid, canvas.window(), [&](const CoveredRow& covered) {
-    std::size_t column_of_map = 0;
-    const double y = grid.top_m - (static_cast<double>(covered.row) + 0.5) * grid.pixel_m;
-    for (std::size_t i = 0; i < covered.cover.size(); ++i) {
-      if (covered.cover[i] == 0) continue;
-      const std::size_t column = covered.column + i;
-      const double x = grid.left_m + (static_cast<double>(column) + 0.5) * grid.pixel_m;
-      const Sample sample = sample_area(source, map.source_of({x, y}, column_of_map), grid.pixel_m);
-      if (sample.weight > 0.0) canvas.add(column, covered.row, sample.colour, covered.cover[i]);
-    }
+  draw(target, source, canvas,
+       [&](Point p, std::size_t& column) { return map.source_of(p, column); });
+}
+
+void draw_carried(const Polygon& target, const Affine& to_source, const Raster& source,
+                  CoverageCanvas& canvas) {
+  draw(target, source, canvas, [&](Point p, std::size_t&) {
+    return SourcePoint{to_source(p), {to_source.xx, to_source.yx}, {to_source.xy, to_source.yy}};
   });
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/affine.h"
 #include "geodata/raster_io.h"
 #include "imagery/linear_light.h"
 #include "imagery/pixel_coverage.h"
@@ -65,6 +66,11 @@ class CoverageCanvas {
 /// Deviation: area sampling in linear light instead of the graphics card's (ADR 0032)
 void draw_parcel(const Polygon& target, const WarpMap& map, const geodata::Raster& source,
                  CoverageCanvas& canvas);
+
+/// Draws the source's image into the target through an affine map: without folds.
+/// @param to_source  from a point of the target to where it is in the source; not singular
+void draw_carried(const Polygon& target, const Affine& to_source, const geodata::Raster& source,
+                  CoverageCanvas& canvas);
 
 /// What of the example's image a warp needs: its quadrilaterals, and half the footprint of a pixel
 /// around them.

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "command.h"
+#include "core/options.h"
+#include "core/progress.h"
+#include "geodata/layer_io.h"
+#include "harness/reconfigure_script.h"
+#include "harness/reconfigure_session.h"
+#include "harness/tiled_city.h"
+#include "output_file.h"
+#include "parcels/block_subdivider.h"
+#include "set_option.h"
+
+namespace plat::cli {
+namespace {
+
+struct Arguments {
+  std::string script;
+  std::string city;
+  std::string out;
+  std::vector<std::string> settings;
+  harness::CityReading reading;
+};
+
+void print_step(std::size_t number, const harness::ReconfigureStep& step,
+                const harness::StepReport& report, double time_ms) {
+  fmt::print("operation {} {}:", number, step.name);
+  if (report.named > 0) fmt::print(" {} tiles named;", report.named);
+  if (const auto& tiles = report.edit.tiles) {
+    fmt::print(" {} moved, {} new, {} gone;", tiles->moved.size(), tiles->appeared.size(),
+               tiles->vanished.size());
+    if (tiles->replacements + tiles->replacements_refused > 0) {
+      fmt::print(" {} replaced, {} tried in vain, {} rounds;", tiles->replacements,
+                 tiles->replacements_refused, tiles->rounds);
+    }
+    fmt::print(
+        " mean gap {:.3f} -> {:.3f} m, across streets {:.3f} -> {:.3f} m, deformation {:.4f} -> "
+        "{:.4f}, at most {:.4f};",
+        report.before->mean_property_gap_m, tiles->mean_property_gap_m,
+        report.before->mean_street_gap_m, tiles->mean_street_gap_m, report.before->mean_deformation,
+        tiles->mean_deformation, tiles->largest_deformation);
+    fmt::print(" streets: {} nodes moved, {} widths, blocks {} changed, {} new, {} gone;",
+               report.edit.nodes_moved, report.edit.streets_resized, report.edit.changed.size(),
+               report.edit.appeared.size(), report.edit.vanished.size());
+  }
+  fmt::print(" {:.1f} ms\n", time_ms);
+}
+
+void add_failures(geodata::Layer& layer, const std::vector<tiles::TileFailure>& failures) {
+  for (const tiles::TileFailure& failure : failures) {
+    geodata::Feature row;
+    row.id = fmt::format("{}", layer.features.size() + 1);
+    if (failure.shape.outer.size() >= 3) row.polygons.push_back(failure.shape);
+    row.attributes = {fmt::format("tile of {}", failure.source_id),
+                      std::string(failure_name(failure.failure.code)), failure.failure.message};
+    layer.features.push_back(std::move(row));
+  }
+}
+
+/// @returns how many steps were refused
+std::size_t replay(const harness::ReconfigureScript& script, harness::ReconfigureSession& session) {
+  std::size_t refused = 0;
+  Progress progress("reconfigure", script.steps.size());
+  for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    const harness::ReconfigureStep& step = script.steps[i];
+    const auto start = std::chrono::steady_clock::now();
+    const auto report = session.run(step);
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    if (report) {
+      print_step(i + 1, step, *report, time.count());
+    } else {
+      ++refused;
+      fmt::print("operation {} {}: refused, {}: {}; {:.1f} ms\n", i + 1, step.name,
+                 failure_name(report.error().code), report.error().message, time.count());
+    }
+    progress.step();
+  }
+  return refused;
+}
+
+ExitStatus run(Arguments args) {
+  args.reading.options.style.options = options_from_settings(args.settings);
+  static_cast<void>(parcels::block_subdividers().make(args.reading.options.style.strategy,
+                                                      args.reading.options.style.options));
+  const harness::ReconfigureScript script = harness::read_reconfigure_script(args.script);
+  expect_output(args.out, {args.city});
+  harness::TiledCity tiled = harness::with_tiles_of_parcels(
+      harness::read_city(args.city, args.reading), args.reading.options.jobs);
+  harness::ReconfigureSession session(std::move(tiled.placed));
+  const std::size_t refused = replay(script, session);
+  std::vector<geodata::Layer> layers = harness::city_layers(session.city(), session.frame());
+  add_failures(layers.back(), tiled.failures);
+  geodata::write_layers(args.out, layers);
+  const std::size_t failures = layers.back().features.size();
+  fmt::print("{}: {} tiles, {} streets, {} failures; {} of {} operations refused\n", args.out,
+             session.city().tiles()->tiles.size(), session.city().streets().size(), failures,
+             refused, script.steps.size());
+  return refused + failures == 0 ? kDone : kFinishedWithFailures;
+}
+
+}  // namespace
+
+void add_reconfigure_command(CLI::App& app, Action& action) {
+  auto args = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("reconfigure",
+                                         "Move, turn, copy, cut, paste and replace the tiles of a "
+                                         "city; the others make room, streets\n"
+                                         "go along [ABVA08]");
+  command
+      ->add_option("script", args->script,
+                   "JSON file with the operations (docs/reconfigure_script.md)")
+      ->required();
+  command
+      ->add_option("--city", args->city,
+                   "GeoPackage: what this command or plat edit wrote, or what plat blocks wrote "
+                   "from streets; without tiles, its parcels become the tiles")
+      ->required();
+  command
+      ->add_option("--out", args->out,
+                   "GeoPackage to write: layers tiles, tile_vertices, tile_links, and those of "
+                   "plat edit; --city of a next call")
+      ->required();
+  command
+      ->add_option("--strategy", args->reading.options.style.strategy,
+                   "how blocks are divided into tiles (plat list strategies), where the city has "
+                   "neither tiles nor parcels")
+      ->capture_default_str();
+  command->add_option("--set", args->settings, "option of the strategy, key=value; may be repeated")
+      ->take_all();
+  command->add_option("--seed", args->reading.options.seed, "random seed; same seed, same bytes")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--jobs", args->reading.options.jobs.count,
+                   "threads, 0 = all cores; results do not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->footer(
+      "Example:\n  plat edit no_edits.json --city blocks.gpkg --strategy obb --out city.gpkg\n"
+      "  plat reconfigure script.json --city city.gpkg --out reconfigured.gpkg\n"
+      "Coordinates are metres in the city's CRS. An operation that would make tiles overlap or\n"
+      "streets cross is refused and changes nothing.\n"
+      "Exit status: 0 done, 1 finished with operations refused or failures in the layer, 2 bad "
+      "input.");
+  command->callback([args, &action] { action = [args] { return run(*args); }; });
+}
+
+}  // namespace plat::cli
