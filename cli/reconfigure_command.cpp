@@ -9,6 +9,7 @@
 #include "geodata/layer_io.h"
 #include "harness/reconfigure_script.h"
 #include "harness/reconfigure_session.h"
+#include "harness/tile_imagery.h"
 #include "harness/tiled_city.h"
 #include "output_file.h"
 #include "parcels/block_subdivider.h"
@@ -21,6 +22,8 @@ struct Arguments {
   std::string script;
   std::string city;
   std::string out;
+  std::string image;
+  std::string image_out;
   std::vector<std::string> settings;
   harness::CityReading reading;
 };
@@ -86,7 +89,11 @@ ExitStatus run(Arguments args) {
   static_cast<void>(parcels::block_subdividers().make(args.reading.options.style.strategy,
                                                       args.reading.options.style.options));
   const harness::ReconfigureScript script = harness::read_reconfigure_script(args.script);
-  expect_output(args.out, {args.city});
+  expect_output(args.out, {args.city, args.script});
+  if (args.image.empty() != args.image_out.empty())
+    throw InputError("--image and --image-out: give both or none");
+  if (!args.image_out.empty())
+    expect_output(args.image_out, {args.image, args.city}, "--image-out", ".tif");
   harness::TiledCity tiled = harness::with_tiles_of_parcels(
       harness::read_city(args.city, args.reading), args.reading.options.jobs);
   harness::ReconfigureSession session(std::move(tiled.placed));
@@ -94,6 +101,13 @@ ExitStatus run(Arguments args) {
   std::vector<geodata::Layer> layers = harness::city_layers(session.city(), session.frame());
   add_failures(layers.back(), tiled.failures);
   geodata::write_layers(args.out, layers);
+  if (!args.image.empty()) {
+    const geodata::RasterGrid grid = harness::write_tile_image(
+        args.image_out, *session.city().tiles(), args.image, session.frame(),
+        args.reading.options.jobs, Progress::Style::kAutomatic);
+    fmt::print("{}: {} x {} pixels of {} m\n", args.image_out, grid.width, grid.height,
+               grid.pixel_m);
+  }
   const std::size_t failures = layers.back().features.size();
   fmt::print("{}: {} tiles, {} streets, {} failures; {} of {} operations refused\n", args.out,
              session.city().tiles()->tiles.size(), session.city().streets().size(), failures,
@@ -123,6 +137,11 @@ void add_reconfigure_command(CLI::App& app, Action& action) {
                    "GeoPackage to write: layers tiles, tile_vertices, tile_links, and those of "
                    "plat edit; --city of a next call")
       ->required();
+  command->add_option("--image", args->image,
+                      "image of the city before any reconfiguration, whatever GDAL opens");
+  command->add_option("--image-out", args->image_out,
+                      "GeoTIFF to write, .tif: the same image, every tile's piece of it carried "
+                      "where the tile is now");
   command
       ->add_option("--strategy", args->reading.options.style.strategy,
                    "how blocks are divided into tiles (plat list strategies), where the city has "

@@ -143,6 +143,11 @@ void read_fields(const ScriptJson& json, Options& out) {
   out = json.naming([&] { return from_option_map<Options>("options", map); });
 }
 
+template <class Options>
+void add_names(std::vector<std::string_view>& names) {
+  std::apply([&](const auto&... field) { (names.push_back(field.name), ...); }, Options::fields());
+}
+
 bool is_none(const ScriptJson& json) { return json.is_text() && json.text() == kAbsent; }
 
 void read_replacement(const ScriptJson& json, std::optional<tiles::ReplacementOptions>& out) {
@@ -150,15 +155,20 @@ void read_replacement(const ScriptJson& json, std::optional<tiles::ReplacementOp
     out.reset();
     return;
   }
-  json.expect_only({"deformation_threshold", "gap_threshold_m", "candidates", "max_rounds"});
+  std::vector<std::string_view> keys;
+  add_names<tiles::ReplacementOptions>(keys);
+  json.expect_only(keys);
   if (!out) out.emplace();
   read_fields(json, *out);
 }
 
 /// What is given in `json` wins over what is there.
 void read_options(const ScriptJson& json, tiles::ReconfigurationOptions& out) {
-  json.expect_only({"rigidity", "street_weight", "reach_m", "pasted", "similarity",
-                    "similarity_options", "replacement"});
+  std::vector<std::string_view> keys;
+  add_names<tiles::SolverOptions>(keys);
+  add_names<tiles::ReconfigurationOptions>(keys);
+  keys.insert(keys.end(), {"similarity", "similarity_options", "replacement"});
+  json.expect_only(keys);
   read_fields(json, out.solver);
   tiles::ReconfigurationOptions fields = out;
   read_fields(json, fields);

@@ -37,11 +37,14 @@ ScriptJson ScriptJson::needed(std::string_view key, std::string_view what) const
 }
 
 void ScriptJson::expect_only(std::initializer_list<std::string_view> keys) const {
+  expect_only(std::span(keys.begin(), keys.size()));
+}
+
+void ScriptJson::expect_only(std::span<const std::string_view> keys) const {
   if (!value_->is_object()) refuse("must be a JSON object");
   for (const auto& [key, value] : value_->items()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    refuse(fmt::format("unknown key \"{}\"{} (allowed: {})", key,
-                       did_you_mean(key, std::span(keys.begin(), keys.size())),
+    refuse(fmt::format("unknown key \"{}\"{} (allowed: {})", key, did_you_mean(key, keys),
                        fmt::join(keys, ", ")));
   }
 }

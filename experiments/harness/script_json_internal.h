@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ class ScriptJson {
   [[nodiscard]] ScriptJson needed(std::string_view key, std::string_view what) const;
   /// Refuses members of any other name.
   void expect_only(std::initializer_list<std::string_view> keys) const;
+  void expect_only(std::span<const std::string_view> keys) const;
 
   [[nodiscard]] std::vector<ScriptJson> list() const;
   [[nodiscard]] std::string text() const;
