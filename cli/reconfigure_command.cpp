@@ -6,6 +6,7 @@
 #include "command.h"
 #include "core/options.h"
 #include "core/progress.h"
+#include "geodata/dataset_catalogue.h"
 #include "geodata/layer_io.h"
 #include "harness/reconfigure_script.h"
 #include "harness/reconfigure_session.h"
@@ -21,6 +22,9 @@ namespace {
 struct Arguments {
   std::string script;
   std::string city;
+  std::string dataset;
+  std::vector<double> near;
+  std::optional<std::size_t> count;
   std::string out;
   std::string image;
   std::string image_out;
@@ -63,6 +67,17 @@ void add_failures(geodata::Layer& layer, const std::vector<tiles::TileFailure>& 
   }
 }
 
+harness::TiledCity find_city(const Arguments& args) {
+  const editing::CityOptions& options = args.reading.options;
+  if (args.dataset.empty())
+    return harness::with_tiles_of_parcels(harness::read_city(args.city, args.reading),
+                                          options.jobs);
+  harness::TileSelection selection{args.count, {}};
+  if (!args.near.empty()) selection.near = Point{args.near.at(0), args.near.at(1)};
+  return harness::city_of_observed_tiles(
+      harness::load_tiles(geodata::dataset(args.dataset), selection, {}, options.jobs), options);
+}
+
 /// @returns how many steps were refused
 std::size_t replay(const harness::ReconfigureScript& script, harness::ReconfigureSession& session) {
   std::size_t refused = 0;
@@ -88,14 +103,17 @@ ExitStatus run(Arguments args) {
   args.reading.options.style.options = options_from_settings(args.settings);
   static_cast<void>(parcels::block_subdividers().make(args.reading.options.style.strategy,
                                                       args.reading.options.style.options));
+  if (args.city.empty() == args.dataset.empty())
+    throw InputError("plat reconfigure: give either --city or --dataset");
+  if (args.dataset.empty() && (!args.near.empty() || args.count))
+    throw InputError("--near, --count: go with --dataset");
   const harness::ReconfigureScript script = harness::read_reconfigure_script(args.script);
   expect_output(args.out, {args.city, args.script});
   if (args.image.empty() != args.image_out.empty())
     throw InputError("--image and --image-out: give both or none");
   if (!args.image_out.empty())
     expect_output(args.image_out, {args.image, args.city}, "--image-out", ".tif");
-  harness::TiledCity tiled = harness::with_tiles_of_parcels(
-      harness::read_city(args.city, args.reading), args.reading.options.jobs);
+  harness::TiledCity tiled = find_city(args);
   harness::ReconfigureSession session(std::move(tiled.placed));
   const std::size_t refused = replay(script, session);
   std::vector<geodata::Layer> layers = harness::city_layers(session.city(), session.frame());
@@ -127,11 +145,19 @@ void add_reconfigure_command(CLI::App& app, Action& action) {
       ->add_option("script", args->script,
                    "JSON file with the operations (docs/reconfigure_script.md)")
       ->required();
+  command->add_option("--city", args->city,
+                      "GeoPackage: what this command or plat edit wrote, or what plat blocks wrote "
+                      "from streets; without tiles, its parcels become the tiles");
+  command->add_option("--dataset", args->dataset,
+                      "instead: a place of the catalogue (plat data list), its observed parcels "
+                      "as tiles");
   command
-      ->add_option("--city", args->city,
-                   "GeoPackage: what this command or plat edit wrote, or what plat blocks wrote "
-                   "from streets; without tiles, its parcels become the tiles")
-      ->required();
+      ->add_option("--near", args->near,
+                   "with --dataset and --count: metres east and north in the place's projected "
+                   "CRS (default: its middle)")
+      ->expected(2);
+  command->add_option("--count", args->count, "with --dataset: only the tiles nearest, so many")
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--out", args->out,
                    "GeoPackage to write: layers tiles, tile_vertices, tile_links, and those of "

@@ -32,14 +32,14 @@ Pieces bounding_pieces(const streets::StreetNetwork& network, streets::BoundingC
   return out;
 }
 
-}  // namespace
-
-City make_city(const streets::StreetNetwork& network, const CityOptions& options,
-               streets::BoundingClasses bounding, const StyleOf& style_of) {
+City make(const streets::StreetNetwork& network, const CityOptions& options,
+          streets::BoundingClasses bounding, const StyleOf& style_of,
+          std::shared_ptr<const tiles::TileLayout> layout) {
   static_cast<void>(
       parcels::block_subdividers().make(options.style.strategy, options.style.options));
   City city(options);
   Change change(city);
+  change.set(std::move(layout));
   detail::NetworkEdit edit(change);
   const Pieces pieces = bounding_pieces(network, bounding);
   const PlanarGraph graph = node_segments(pieces.segments);
@@ -63,6 +63,19 @@ City make_city(const streets::StreetNetwork& network, const CityOptions& options
   blocks.finish();
   change.keep();
   return city;
+}
+
+}  // namespace
+
+City make_city(const streets::StreetNetwork& network, const CityOptions& options,
+               streets::BoundingClasses bounding, const StyleOf& style_of) {
+  return make(network, options, bounding, style_of, nullptr);
+}
+
+City make_city_of_tiles(const streets::StreetNetwork& network, tiles::TileLayout layout,
+                        const CityOptions& options, streets::BoundingClasses bounding) {
+  return make(network, options, bounding, {},
+              std::make_shared<const tiles::TileLayout>(std::move(layout)));
 }
 
 City with_tiles(City city, tiles::TileLayout layout) {

@@ -183,6 +183,11 @@ City make_city(const streets::StreetNetwork& network, const CityOptions& options
 /// any more. A city of tiles may have no street at all.
 City with_tiles(City city, tiles::TileLayout layout);
 
+/// A city with tiles as its land; nothing is divided.
+City make_city_of_tiles(const streets::StreetNetwork& network, tiles::TileLayout layout,
+                        const CityOptions& options,
+                        streets::BoundingClasses bounding = streets::BoundingClasses::kStreets);
+
 /// The same city, divided and matched by other options from now on.
 City with_options(City city, const CityOptions& options);
 

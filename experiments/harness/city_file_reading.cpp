@@ -152,7 +152,8 @@ PlacedCity restore(const std::string& file, const editing::CityOptions& options)
   if (const auto next_tile = document.has("next_tile")
                                  ? document.id(document.layer().features.front(), "next_tile")
                                  : std::nullopt)
-    parts.tiles = std::make_shared<const tiles::TileLayout>(read_tiles(file, frame, *next_tile));
+    parts.tiles =
+        std::make_shared<const tiles::TileLayout>(read_tile_document(file, frame, *next_tile));
   auto city = editing::restore_city(parts);
   if (!city) {
     throw InputError(

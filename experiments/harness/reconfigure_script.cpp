@@ -55,11 +55,11 @@ ScriptCircle circle_of(const ScriptJson& json) {
           json.needed("radius_m", "metres").number(0.0, kMaxShift_m)};
 }
 
-TileSelection selection_of(const ScriptJson& operation) {
+ScriptTiles selection_of(const ScriptJson& operation) {
   const ScriptJson json = operation.needed("tiles", "which tiles");
   json.expect_only(
       {"ids", "source_ids", "at", "points", "window", "polygon", "circle", "zone", "all"});
-  TileSelection out;
+  ScriptTiles out;
   out.path = json.path();
   std::size_t given = 0;
   const auto read = [&](std::string_view key, auto take) {

@@ -19,7 +19,7 @@ struct ScriptCircle {
 
 /// Which tiles an operation is about: those that every given criterion names. Places are in the
 /// city's CRS; a tile lies in an area where its centroid does.
-struct TileSelection {
+struct ScriptTiles {
   std::string path;  ///< in the script, for messages
   std::vector<tiles::TileId> ids;
   std::vector<std::string> source_ids;
@@ -38,15 +38,15 @@ struct ScriptMotion {
 };
 
 struct MoveStep {
-  TileSelection tiles;
+  ScriptTiles tiles;
   ScriptMotion motion;
 };
 struct CopyStep {
-  TileSelection tiles;
+  ScriptTiles tiles;
   std::string name;  ///< of the group that paste puts down
 };
 struct CutStep {
-  TileSelection tiles;
+  ScriptTiles tiles;
   std::optional<std::string> name;  ///< cut tiles can be pasted
   tiles::VacatedLand land = tiles::VacatedLand::kVacant;
 };
@@ -55,10 +55,10 @@ struct PasteStep {
   ScriptMotion motion;
 };
 struct PinStep {
-  TileSelection tiles;
+  ScriptTiles tiles;
 };
 struct UnpinStep {
-  TileSelection tiles;
+  ScriptTiles tiles;
 };
 struct ReplaceStep {
   tiles::ReplacementOptions replacement;

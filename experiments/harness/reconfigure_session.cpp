@@ -19,7 +19,7 @@ bool holds_one(const Polygon& shape, const std::vector<Point>& points, Point ori
 }
 
 /// Ids and source ids that a selection gives and no tile has.
-std::optional<std::string> missing_name(const TileSelection& selection, const TileLayout& layout) {
+std::optional<std::string> missing_name(const ScriptTiles& selection, const TileLayout& layout) {
   for (const TileId id : selection.ids) {
     if (!tiles::find_tile(layout, id)) return fmt::format("there is no tile {}", id.value);
   }
@@ -30,7 +30,7 @@ std::optional<std::string> missing_name(const TileSelection& selection, const Ti
   return std::nullopt;
 }
 
-bool is_selected(const TileSelection& selection, const TileLayout& layout, const tiles::Tile& tile,
+bool is_selected(const ScriptTiles& selection, const TileLayout& layout, const tiles::Tile& tile,
                  Point origin) {
   const auto names = [](const auto& list, const auto& value) {
     return list.empty() || std::ranges::find(list, value) != list.end();
@@ -74,8 +74,7 @@ std::vector<TileId> ids_of(const TileLayout& layout) {
 
 }  // namespace
 
-Expected<std::vector<TileId>> selected_tiles(const TileSelection& selection,
-                                             const TileLayout& layout,
+Expected<std::vector<TileId>> selected_tiles(const ScriptTiles& selection, const TileLayout& layout,
                                              const geodata::LocalFrame& frame) {
   if (const auto missing = missing_name(selection, layout))
     return fail(FailureCode::kUnknownEntity, *missing);
@@ -171,7 +170,7 @@ class ReconfigureSession::Runner {
   [[nodiscard]] const TileLayout& layout() const { return *session_.city().tiles(); }
 
   template <class Use>
-  Expected<StepReport> selected(const TileSelection& selection, Use use) {
+  Expected<StepReport> selected(const ScriptTiles& selection, Use use) {
     return selected_tiles(selection, layout(), session_.frame_).and_then(use);
   }
 

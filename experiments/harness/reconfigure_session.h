@@ -44,7 +44,7 @@ class ReconfigureSession {
 
 /// The tiles that a selection names, by id, each once.
 /// Failures: kUnknownEntity where it names an id that no tile has, or selects nothing.
-Expected<std::vector<tiles::TileId>> selected_tiles(const TileSelection& selection,
+Expected<std::vector<tiles::TileId>> selected_tiles(const ScriptTiles& selection,
                                                     const tiles::TileLayout& layout,
                                                     const geodata::LocalFrame& frame);
 

@@ -202,8 +202,8 @@ std::vector<Layer> tile_document_layers(const TileLayout& layout,
   return {tiles_layer(layout, frame), vertices_layer(layout, frame), links_layer(layout, frame)};
 }
 
-TileLayout read_tiles(const std::string& file, const geodata::LocalFrame& frame,
-                      std::uint32_t next_id) {
+TileLayout read_tile_document(const std::string& file, const geodata::LocalFrame& frame,
+                              std::uint32_t next_id) {
   TileLayout layout;
   layout.next_id = next_id;
   if (has_features(file, "tile_vertices"))

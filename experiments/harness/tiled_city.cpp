@@ -32,6 +32,18 @@ std::vector<tiles::StreetLine> street_lines_of(const editing::City& city) {
   return out;
 }
 
+streets::StreetNetwork streets_around(const tiles::TileLayout& layout,
+                                      streets::StreetNetwork network) {
+  Box box;
+  for (const tiles::LayoutVertex& vertex : layout.vertices) box.add(vertex.at);
+  const Box around = box.expanded(kStreetsAround_m);
+  std::erase_if(network.streets, [&](const streets::Street& street) {
+    return street.line.empty() || !(street.width_m > 0.0) ||
+           !around.intersects(box_of(street.line));
+  });
+  return network;
+}
+
 }  // namespace
 
 TiledCity with_tiles_of_parcels(PlacedCity placed, Jobs jobs) {
@@ -40,6 +52,13 @@ TiledCity with_tiles_of_parcels(PlacedCity placed, Jobs jobs) {
       pieces_of(placed.city), street_lines_of(placed.city), tiles::ConstructionOptions{}, jobs);
   placed.city = editing::with_tiles(std::move(placed.city), std::move(made.layout));
   return {std::move(placed), std::move(made.failures)};
+}
+
+TiledCity city_of_observed_tiles(ObservedTiles observed, const editing::CityOptions& options) {
+  tiles::TileLayout& layout = observed.tiles.layout;
+  const streets::StreetNetwork network = streets_around(layout, std::move(observed.network));
+  return {{editing::make_city_of_tiles(network, std::move(layout), options), observed.frame},
+          std::move(observed.tiles.failures)};
 }
 
 }  // namespace plat::harness

@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "harness/city_file.h"
+#include "harness/observed_tiles.h"
 #include "tiles/layout_construction.h"
 
 namespace plat::harness {
@@ -18,5 +19,11 @@ struct TiledCity {
 /// block that could not be divided. The source id of a tile is its parcel's id ("block 12" of a
 /// block), its zone the parcel's attribute `zone`.
 TiledCity with_tiles_of_parcels(PlacedCity placed, Jobs jobs = {});
+
+/// A city of observed tiles, and of the streets among them: those that come within
+/// kStreetsAround_m of the tiles' box. It may have none.
+TiledCity city_of_observed_tiles(ObservedTiles observed, const editing::CityOptions& options);
+
+inline constexpr double kStreetsAround_m = 60.0;
 
 }  // namespace plat::harness
