@@ -84,11 +84,11 @@ class NetworkEdit {
   std::map<StreetId, StreetId> split_from_;
 };
 
-/// Whether two streets may be as they are: they meet in common nodes only, and no point of one
-/// comes so near to the other that noding would join them.
-bool are_clear(const City& city, StreetId a, StreetId b);
+/// Where two streets may not be as they are: they meet in common nodes only, and no point of one
+/// comes so near to the other that noding would join them. nullopt where they may.
+std::optional<Point> find_meeting(const City& city, StreetId a, StreetId b);
 /// The same of one street with itself.
-bool is_clear(const CityStreet& street);
+std::optional<Point> find_meeting(const CityStreet& street);
 
 /// Points nearer than this to a street are on it: a grid step, twice the reach of noding.
 inline constexpr double kClearance_m = 1.0 / 1024.0;

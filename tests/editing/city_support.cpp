@@ -8,9 +8,11 @@
 #include <map>
 
 #include "blocks/block_extraction.h"
+#include "editing/tiled_city.h"
 #include "parcels/block_subdivider.h"
 #include "parcels/coverage.h"
 #include "streets/network_cleaning.h"
+#include "tiles/layout_defects.h"
 
 namespace plat::testing {
 
@@ -105,6 +107,7 @@ std::string bytes_of(const City& city) {
   const editing::IdCounters& ids = city.counters();
   for (const std::uint32_t next : {ids.node, ids.street, ids.walk, ids.block, ids.parcel})
     out.add(std::uint64_t{next});
+  if (city.tiles()) out.text_ += bytes_of(*city.tiles());
   return std::move(out.text_);
 }
 
@@ -185,6 +188,10 @@ BlockId block_at(const City& city, Point p) {
 }
 
 void expect_as_from_scratch(const City& city) {
+  if (city.tiles()) {
+    const auto defect = tiles::find_layout_defect(*city.tiles());
+    EXPECT_FALSE(defect) << defect->message;
+  }
   std::vector<StreetId> ids;
   const streets::StreetNetwork network = editing::network_of(city, &ids);
   blocks::ExtractionOptions options;
@@ -213,6 +220,10 @@ void expect_as_from_scratch(const City& city) {
       continue;
     }
     const CityBlock& own = *it->second;
+    if (city.tiles()) {
+      EXPECT_TRUE(own.parcels.empty() && !own.failure) << "tiles are the land";
+      continue;
+    }
     Rng rng(own.seed);
     const auto parcels = parcels::block_subdividers()
                              .make(own.style.strategy, own.style.options)

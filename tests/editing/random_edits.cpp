@@ -77,9 +77,65 @@ std::vector<NodeId> some_nodes(const City& city, Rng& rng) {
   return out;
 }
 
+/// A tile, and most often some around it.
+std::vector<tiles::TileId> some_tiles(const tiles::TileLayout& layout, Rng& rng) {
+  const auto place = [&](const tiles::Tile& tile) { return centroid(shape_of(layout, tile)); };
+  const Point middle = place(layout.tiles[rng.index(layout.tiles.size())]);
+  const double reach_m = rng.uniform(1.0, 70.0);
+  std::vector<tiles::TileId> out;
+  for (const tiles::Tile& tile : layout.tiles) {
+    if (distance(place(tile), middle) <= reach_m) out.push_back(tile.id);
+  }
+  return out;
+}
+
+Affine random_motion(const tiles::TileLayout& layout, Rng& rng) {
+  const tiles::Tile& tile = layout.tiles[rng.index(layout.tiles.size())];
+  const Affine turn = Affine::rotation(rng.uniform(-0.05, 0.05), centroid(shape_of(layout, tile)));
+  return Affine::translation(near({}, 8.0, rng)) * turn;
+}
+
+tiles::ReconfigurationOptions random_options(Rng& rng) {
+  tiles::ReconfigurationOptions out;
+  out.solver.rigidity = std::exp(rng.uniform(-3.0, 3.0));
+  if (rng.index(2) == 0) out.reach_m.reset();
+  return out;
+}
+
+Edit random_tile_edit(const tiles::TileLayout& layout, Rng& rng) {
+  const std::vector<tiles::TileId> tiles = some_tiles(layout, rng);
+  switch (rng.index(9)) {
+    case 0:
+    case 1:
+    case 2:
+      return MoveTiles{tiles, random_motion(layout, rng), random_options(rng)};
+    case 3: {
+      const auto group = tiles::copy_tiles(layout, {tiles.data(), 1});
+      const tiles::Tile& to = layout.tiles[rng.index(layout.tiles.size())];
+      const Point by = centroid(shape_of(layout, to)) -
+                       centroid(shape_of(group->tiles, group->tiles.tiles.front()));
+      return PasteTiles{std::make_shared<const tiles::TileGroup>(*group), Affine::translation(by),
+                        random_options(rng)};
+    }
+    case 4:
+      return CutTiles{{tiles.front()},
+                      rng.index(2) == 0 ? tiles::VacatedLand::kVacant : tiles::VacatedLand::kClosed,
+                      random_options(rng)};
+    case 5:
+    case 6:
+      return PinTiles{tiles, rng.index(3) == 0 ? Pinning::kPinned : Pinning::kFree};
+    case 7:
+      return ReplaceTiles{{.deformation_threshold = 0.02, .candidates = 2, .max_rounds = 2},
+                          random_options(rng)};
+    default:
+      return RelaxTiles{random_options(rng)};
+  }
+}
+
 }  // namespace
 
 Edit random_edit(const City& city, Rng& rng) {
+  if (city.tiles() && rng.index(2) == 0) return random_tile_edit(*city.tiles(), rng);
   switch (rng.index(12)) {
     case 0:
     case 1: {

@@ -5,7 +5,8 @@
 
 namespace plat::testing {
 
-/// An edit of any kind on something that the city has; many are refused, as a user's would be.
+/// An edit of any kind on something that the city has, of tiles too where it has any; many are
+/// refused, as a user's would be.
 editing::Edit random_edit(const editing::City& city, Rng& rng);
 
 }  // namespace plat::testing
