@@ -39,7 +39,7 @@ class CyclicWarper {
       for (const float cost : row) cheapest = std::min(cheapest, cost);
       least_cost_ += cheapest;
     }
-    reached_.resize((size + 1) * (size + 1));
+    reached_.resize((size + 1) * (size + 2));
   }
 
   CyclicWarping cheapest() {
@@ -49,7 +49,8 @@ class CyclicWarper {
     for (std::int32_t i = 0; i <= n_; ++i) best_.first[static_cast<std::size_t>(i)] = i;
     best_.last = best_.first;
     if (best_cost_ > least_cost_) {
-      const Path left = cheapest_path(0, nullptr, nullptr);
+      reach(0, nullptr, nullptr);
+      const Path left = trace(0);
       Path right = left;
       for (auto* columns : {&right.first, &right.last})
         for (std::int32_t& column : *columns) column += n_;
@@ -76,94 +77,98 @@ class CyclicWarper {
   void search(std::int32_t from, const Path& left, std::int32_t to, const Path& right) {
     if (to - from < 2) return;
     const std::int32_t middle = (from + to) / 2;
-    const Path path = cheapest_path(middle, &left, &right);
+    reach(middle, &left, &right);
+    if (to - from == 2 && reached_.back() >= best_cost_) return;  // bounds no other
+    const Path path = trace(middle);
     search(from, left, middle, path);
     search(middle, path, to, right);
   }
 
-  /// The cheapest path from (0, begin) to (n, begin + n), between two others where they are given.
-  Path cheapest_path(std::int32_t begin, const Path* left, const Path* right) {
-    const std::int32_t end = begin + n_;
-    const std::size_t stride = static_cast<std::size_t>(n_) + 1;
-    from_.resize(stride);
-    to_.resize(stride);
-    for (std::int32_t i = 0; i <= n_; ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      from_[row] = left == nullptr ? begin : std::max(begin, left->first[row]);
-      to_[row] = right == nullptr ? end : std::min(end, right->last[row]);
-      double* here = reached_.data() + row * stride;
-      const float* cost = costs_.data() + (row % static_cast<std::size_t>(n_)) * width_;
-      if (i == 0) {
-        first_row(begin, here, cost);
-      } else {
-        next_row(i, begin, here, cost);
-      }
-    }
-    return trace(begin);
-  }
-
-  void first_row(std::int32_t begin, double* here, const float* cost) const {
-    here[0] = 0.0;  // paid at the end, where the path is back
-    for (std::int32_t j = begin + 1; j <= to_[0]; ++j)
-      here[j - begin] = here[j - begin - 1] + cost[j];
-  }
-
-  void next_row(std::int32_t i, std::int32_t begin, double* here, const float* cost) const {
-    const auto row = static_cast<std::size_t>(i);
-    const double* above = here - (n_ + 1);
+  /// A row while it is filled, from the left. Columns count from the begin.
+  struct Row {
+    double* here;
+    const double* above;
+    const float* cost;
     double left = kInfinity;
-    const auto reach = [&](std::int32_t j, double before) {
-      left = std::min(before, left) + cost[j];
-      here[j - begin] = left;
-    };
-    // Above are columns from_[row - 1] .. to_[row - 1]; those of this row begin and end later.
-    const std::int32_t above_to = to_[row - 1];
-    std::int32_t j = from_[row];
-    if (j == from_[row - 1]) {
-      reach(j, above[j - begin]);
-      ++j;
+
+    void fill(std::int32_t j) {
+      left = std::min(std::min(above[j], above[j - 1]), left) + static_cast<double>(cost[j]);
+      here[j] = left;
     }
-    for (; j <= std::min(above_to, to_[row]); ++j)
-      reach(j, std::min(above[j - begin], above[j - begin - 1]));
-    for (; j <= to_[row]; ++j) reach(j, j == above_to + 1 ? above[j - begin - 1] : kInfinity);
+  };
+
+  double* cells(std::int32_t row) {
+    return reached_.data() + static_cast<std::size_t>(row) * stride() + 1;
+  }
+  [[nodiscard]] std::size_t stride() const { return static_cast<std::size_t>(n_) + 2; }
+
+  /// The row, with what lies beside the columns that are looked at out of reach for this row and
+  /// the next.
+  Row open_row(std::int32_t i, std::int32_t begin) {
+    const auto row = static_cast<std::size_t>(i);
+    double* here = cells(i);
+    here[from_[row] - 1] = kInfinity;
+    if (i < n_) std::fill(here + to_[row] + 1, here + to_[row + 1] + 1, kInfinity);
+    const auto torus_row = row % static_cast<std::size_t>(n_);
+    return {here, i > 0 ? cells(i - 1) : nullptr, costs_.data() + torus_row * width_ + begin};
   }
 
-  /// Walks back from the end; keeps the path where it is the best so far.
-  Path trace(std::int32_t begin) {
-    const std::size_t stride = static_cast<std::size_t>(n_) + 1;
-    Path path;
-    path.first.resize(stride);
-    path.last.resize(stride);
-    std::int32_t j = begin + n_;
-    for (std::int32_t i = n_; i >= 0; --i) {
-      const auto row = static_cast<std::size_t>(i);
-      const double* here = reached_.data() + row * stride;
-      path.last[row] = j;
-      if (i == 0) {
-        path.first[0] = begin;
-        break;
-      }
-      const double* above = here - stride;
-      const auto value = [&](const double* values, std::size_t r, std::int32_t column) {
-        return from_[r] <= column && column <= to_[r] ? values[column - begin] : kInfinity;
-      };
-      for (;;) {
-        const double both = value(above, row - 1, j - 1);
-        const double down = value(above, row - 1, j);
-        const double right = value(here, row, j - 1);
-        path.first[row] = j;
-        if (both <= down && both <= right) {
-          --j;
-          break;
-        }
-        if (down <= right) break;
-        --j;
-      }
+  /// How cheaply all is reached from (0, begin), up to (n, begin + n), between two paths where they
+  /// are given.
+  void reach(std::int32_t begin, const Path* left, const Path* right) {
+    from_.assign(static_cast<std::size_t>(n_) + 1, 0);
+    to_.assign(from_.size(), n_);
+    for (std::size_t row = 0; row < from_.size(); ++row) {
+      if (left != nullptr) from_[row] = std::max(0, left->first[row] - begin);
+      if (right != nullptr) to_[row] = std::min(n_, right->last[row] - begin);
     }
-    const double cost =
-        reached_[static_cast<std::size_t>(n_) * stride + static_cast<std::size_t>(n_)];
-    if (cost < best_cost_) {
-      best_cost_ = cost;
+    const Row top = open_row(0, begin);
+    top.here[0] = 0.0;  // paid at the end, where the path is back
+    for (std::int32_t j = 1; j <= to_[0]; ++j)
+      top.here[j] = top.here[j - 1] + static_cast<double>(top.cost[j]);
+    std::int32_t i = 1;
+    for (; i < n_; i += 2) fill_two_rows(i, begin);
+    if (i > n_) return;
+    Row last = open_row(n_, begin);
+    for (std::int32_t j = from_.back(); j <= to_.back(); ++j) last.fill(j);
+  }
+
+  /// A row and the next, a column behind: each waits for its own left only, so that a processor
+  /// can work on both at once.
+  void fill_two_rows(std::int32_t i, std::int32_t begin) {
+    const auto row = static_cast<std::size_t>(i);
+    Row one = open_row(i, begin);
+    Row next = open_row(i + 1, begin);
+    const std::int32_t one_to = to_[row];
+    const std::int32_t next_from = from_[row + 1];
+    std::int32_t j = from_[row];
+    for (; j <= std::min(next_from, one_to); ++j) one.fill(j);
+    for (; j <= one_to; ++j) {
+      one.fill(j);
+      next.fill(j - 1);
+    }
+    for (j = std::max(next_from, one_to); j <= to_[row + 1]; ++j) next.fill(j);
+  }
+
+  /// The cheapest path from this begin, back from its end; kept where it is the best so far.
+  Path trace(std::int32_t begin) {
+    Path path;
+    path.first.resize(from_.size());
+    path.last.resize(from_.size());
+    std::int32_t j = n_;
+    for (std::int32_t i = n_; i > 0; --i) {
+      const auto row = static_cast<std::size_t>(i);
+      const double* here = cells(i);
+      const double* above = cells(i - 1);
+      path.last[row] = begin + j;
+      while (here[j - 1] < std::min(above[j - 1], above[j])) --j;
+      path.first[row] = begin + j;
+      if (above[j - 1] <= above[j]) --j;
+    }
+    path.last[0] = begin + j;
+    path.first[0] = begin;
+    if (reached_.back() < best_cost_) {
+      best_cost_ = reached_.back();
       best_ = path;
     }
     return path;
@@ -189,10 +194,10 @@ class CyclicWarper {
   std::size_t width_;
   std::size_t shift_ = 0;  ///< the second ring's thing in column 0
   double diagonal_cost_ = 0.0;
-  double least_cost_ = 0.0;         ///< of any warping: the cheapest match of every row
-  std::vector<float> costs_;        ///< n rows of 2n + 1
-  std::vector<double> reached_;     ///< n + 1 rows of n + 1: cheapest way to (i, begin + j)
-  std::vector<std::int32_t> from_;  ///< columns that are looked at, per row
+  double least_cost_ = 0.0;      ///< of any warping: the cheapest match of every row
+  std::vector<float> costs_;     ///< n rows of 2n + 1
+  std::vector<double> reached_;  ///< n + 1 rows of n + 2: cheapest way to (i, begin + j), j from -1
+  std::vector<std::int32_t> from_;  ///< columns behind the begin that are looked at, per row
   std::vector<std::int32_t> to_;
   double best_cost_ = kInfinity;
   Path best_;

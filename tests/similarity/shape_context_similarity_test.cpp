@@ -48,6 +48,11 @@ TEST(ShapeContexts, SeeTheOthersByAngleAndDistance) {
   };
   ASSERT_EQ(seen.size(), expected.size());
   for (const auto& [bin, share] : expected) EXPECT_NEAR(seen[bin], share, 1e-6) << bin;
+  // All corners of a square see the same.
+  for (std::size_t t = 0; t < contexts.bins; ++t)
+    for (std::size_t k = 1; k < 4; ++k)
+      EXPECT_NEAR(contexts.shares_01[t * contexts.stride + k],
+                  contexts.shares_01[t * contexts.stride], 1e-6F);
 }
 
 TEST(ShapeContexts, SumToOne) {

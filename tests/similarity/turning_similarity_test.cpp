@@ -37,6 +37,18 @@ TEST(TurningSimilarity, SimilarOutlinesAreAsOne) {
   EXPECT_GT(distance_of(a, image_of({.xx = -1.0}, a)), 0.1);
 }
 
+/// Where corners of both meet, rounding leaves a sliver between them in which the directions differ
+/// by a corner's turn: it must not count.
+TEST(TurningSimilarity, RoundingOfMeetingCornersDoesNotCount) {
+  Rng rng = property_rng("TurningSimilarity.Rounding");
+  for (int i = 0; i < iterations(100); ++i) {
+    const LabelledShape a = centred(made_shape(rng));
+    const LabelledShape b =
+        plat::testing::begun_elsewhere(rng, image_of(Affine::rotation(rng.uniform(0.0, 6.3)), a));
+    EXPECT_LT(distance_of(a, b), 1e-9);
+  }
+}
+
 /// Corners of the square lie at 0, 3, 6 and 9 twelfths of its length, those of the rectangle at 0,
 /// 4, 6 and 10: the directions differ by a right angle over two twelfths, and by a quarter over
 /// less for no start.
