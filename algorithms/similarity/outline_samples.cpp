@@ -41,6 +41,9 @@ std::size_t first_vertex(const OutlineWalk& walk, Point centroid, std::size_t co
     keep_largest(starts, tie, [&](std::size_t vertex) { return seen(vertex).x; });
     keep_largest(starts, tie, [&](std::size_t vertex) { return seen(vertex).y; });
   }
+  // What is left are the images of one under a rotation; who looks at directions must see the same.
+  keep_largest(starts, tie, [&](std::size_t vertex) { return -walk.places()[vertex].x; });
+  keep_largest(starts, tie, [&](std::size_t vertex) { return -walk.places()[vertex].y; });
   return starts.front();
 }
 

@@ -20,8 +20,8 @@ struct OutlineSamples {
 ///
 /// Guarantees: 1. sample i lies i / count of the outline's length behind the first;  2. the samples
 /// of an outline that is moved, turned, begun at another vertex or that has more vertices on its
-/// edges are the same points of it, up to rounding; where a rotation of the outline onto itself
-/// leaves several choices, they are the images of each other under it.
+/// edges are the same points of it, up to rounding; turned, they may be their images under a
+/// rotation of the outline onto itself.
 /// Pre: a simple ring with an area, count > 0.
 /// Complexity:  O(n + count log n), times the vertices that tie
 OutlineSamples outline_samples(std::span<const Point> ring, std::size_t count);

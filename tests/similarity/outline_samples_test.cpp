@@ -81,14 +81,25 @@ TEST(OutlineSamples, MirrorImagesAreToldApart) {
   }
 }
 
+/// Of a square's corners that with the smallest coordinates, wherever the ring begins: seven
+/// samples begun at another corner are other points.
+TEST(OutlineSamples, CornersThatARotationExchangesAreToldApartByPlace) {
+  for (std::ptrdiff_t by = 0; by < 4; ++by) {
+    Ring begun{{10, 10}, {20, 10}, {20, 20}, {10, 20}};
+    std::ranges::rotate(begun, begun.begin() + by);
+    const OutlineSamples samples = outline_samples(begun, 7);
+    EXPECT_EQ(samples.origin + samples.places[0], (Point{10, 10})) << by;
+  }
+}
+
 TEST(OutlineSamples, BeginAtTheFarthestVertexThatIsFollowedByTheFarthestSamples) {
   // All corners of a rectangle are as far from its middle; behind two of them runs a short side, at
   // the end of which one is as far again.
   const Ring ring{{0, 0}, {6, 0}, {6, 2}, {0, 2}};
   const OutlineSamples samples = outline_samples(ring, 8);
-  EXPECT_EQ(samples.origin + samples.places[0], (Point{6, 0}));
-  EXPECT_EQ(samples.origin + samples.places[1], (Point{6, 2}));
-  EXPECT_EQ(samples.origin + samples.places[2], (Point{4, 2}));
+  EXPECT_EQ(samples.origin + samples.places[0], (Point{0, 2}));
+  EXPECT_EQ(samples.origin + samples.places[1], (Point{0, 0}));
+  EXPECT_EQ(samples.origin + samples.places[2], (Point{2, 0}));
   EXPECT_EQ(samples.centroid, (Point{3, 1}));
 }
 
