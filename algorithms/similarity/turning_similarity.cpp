@@ -80,13 +80,13 @@ std::vector<double> best_starts(const std::vector<Meeting>& meetings) {
 template <class Visit>
 void walk_both(const Prepared& a, const Prepared& b, double start_01, Visit visit) {
   const std::size_t n = a.starts_01.size();
-  const auto behind = std::ranges::lower_bound(a.starts_01, start_01 - kMeeting_01);
+  const auto behind = std::ranges::lower_bound(a.starts_01, start_01);
   const auto first = static_cast<std::size_t>(behind - a.starts_01.begin());
   std::size_t i = 0;
   std::size_t j = 0;
   while (i < n || j < b.starts_01.size()) {
     const std::size_t corner = (first + i) % n;
-    const double of_a = std::max(0.0, a.starts_01[corner] - start_01 + (first + i < n ? 0.0 : 1.0));
+    const double of_a = a.starts_01[corner] - start_01 + (first + i < n ? 0.0 : 1.0);
     if (j == b.starts_01.size() || (i < n && of_a <= b.starts_01[j])) {
       visit(of_a, a.turns_rad[corner]);
       ++i;
