@@ -133,6 +133,19 @@ BlockResult without_defects(TileLayout layout) {
   return out;
 }
 
+/// The tiles of one block. Where matching itself makes tiles overlap (a place narrower than the
+/// tolerance), less of it may do: of the tolerances tried, the one that refuses fewest pieces.
+BlockResult match_block(const Pieces& pieces, std::span<const std::size_t> members,
+                        double matching_m) {
+  BlockResult best = without_defects(block_layout(pieces, members, matching_m));
+  for (const double share : {0.5, 0.25}) {
+    if (best.refused.empty()) break;
+    BlockResult finer = without_defects(block_layout(pieces, members, share * matching_m));
+    if (finer.refused.size() < best.refused.size()) best = std::move(finer);
+  }
+  return best;
+}
+
 /// Pieces by block, blocks by their first piece.
 std::vector<std::vector<std::size_t>> by_block(const Pieces& pieces) {
   std::map<std::uint32_t, std::size_t> place;
@@ -198,7 +211,7 @@ LayoutConstruction construct_layout(std::span<const TilePiece> given,
   refuse_repetitions(pieces);
   const std::vector<std::vector<std::size_t>> members = by_block(pieces);
   auto blocks = parallel_map<BlockResult>(members.size(), jobs, [&](std::size_t b) {
-    return without_defects(block_layout(pieces, members[b], options.matching_m));
+    return match_block(pieces, members[b], options.matching_m);
   });
   const auto take_refused = [&](const BlockResult& block) {
     for (const auto& [piece, failure] : block.refused) pieces.failures[piece] = failure;
