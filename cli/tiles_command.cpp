@@ -40,6 +40,8 @@ ExitStatus run(const Arguments& args) {
         "plat tiles: --streets, --parcel-id and --zone-field go with --parcels; a data set has its "
         "own");
   }
+  if (!args.near.empty() && !args.count)
+    throw InputError("plat tiles: --near goes with --count, the number of tiles");
   expect_output(args.out, {args.sources.parcels, args.sources.streets});
   const harness::ObservedTiles place = find_tiles(args);
   const tiles::TileLayout& layout = place.tiles.layout;

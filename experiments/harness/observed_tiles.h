@@ -16,10 +16,10 @@ namespace plat::harness {
 
 /// Which part of a place.
 struct TileSelection {
-  std::optional<std::size_t> count;  ///< that many tiles; none: all
+  std::optional<std::size_t> count{};  ///< that many tiles; none: all
   /// The tiles nearest to this point of the place's projected CRS, metres east and north; none: to
   /// the middle of the place.
-  std::optional<Point> near;
+  std::optional<Point> near{};
 };
 
 /// An observed place as tiles: its parcels, or its blocks where no parcels are observed.
