@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "similarity/outline_corners.h"
 #include "similarity/shape_admission.h"
@@ -85,7 +86,8 @@ Expected<AffineVertexSimilarity::Prepared> AffineVertexSimilarity::prepare(
   if (options_.frame == DistortionFrame::kTileAxes) out.axis = principal_axis(corners);
   for (std::size_t i = 0; i < corners.size(); ++i)
     out.corners[i] = {dot(corners[i], out.axis), dot(corners[i], perpendicular(out.axis))};
-  return Prepared{out};
+  detail::find_choices(out, options_.area_loss_01);
+  return Prepared{std::move(out)};
 }
 
 double AffineVertexSimilarity::distance(const Prepared& a, const Prepared& b) const {

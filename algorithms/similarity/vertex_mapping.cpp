@@ -2,6 +2,8 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "similarity/affine_distortion.h"
 #include "similarity/outline_corners.h"
@@ -19,6 +21,8 @@ constexpr double kLineShare = 1e-12;
 constexpr double kLeastSine = 1e-9;
 /// Of the sum of squares, what may be lost to rounding where the residual is taken as a difference.
 constexpr double kRoundingShare = 1e-12;
+
+constexpr std::size_t kTriangle = 3;
 
 constexpr std::uint32_t all_of(std::size_t count) { return (1U << count) - 1U; }
 
@@ -110,6 +114,54 @@ class CornerCycle {
   std::array<std::uint32_t, kMaxMappedCorners> corner_;
 };
 
+/// The sets of corners that removals within the bound on area lead to.
+class ChoiceSearch {
+ public:
+  ChoiceSearch(const CornerOutline& outline, double area_loss_01)
+      : outline_(outline),
+        most_twice_m2_(2.0 * area_loss_01 * outline.corner_area_m2),
+        is_seen_(std::size_t{1} << outline.count),
+        by_count_(outline.count + 1) {
+    visit(all_of(outline.count));
+  }
+
+  /// By number of corners; those of one number in the order in which they were found.
+  [[nodiscard]] const std::vector<std::vector<std::uint16_t>>& by_count() const {
+    return by_count_;
+  }
+
+ private:
+  void visit(std::uint32_t corners) {
+    is_seen_[corners] = true;
+    const CornerCycle cycle(outline_, corners);
+    const std::size_t count = cycle.count();
+    by_count_[count].push_back(static_cast<std::uint16_t>(corners));
+    if (count == kTriangle) return;
+    // The corner of the smallest triangle first: the first choices then are good ones, and most
+    // mappings of the others need not be looked at closely.
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < count; ++k) {
+      if (cycle.twice_triangle_m2(k) < cycle.twice_triangle_m2(least)) least = k;
+    }
+    for (std::size_t step = 0; step < count; ++step) {
+      const std::size_t k = (least + step) % count;
+      const std::uint32_t rest = corners & ~cycle.set_of(k);
+      if (cycle.twice_triangle_m2(k) <= most_twice_m2_ && !is_seen_[rest]) visit(rest);
+    }
+  }
+
+  const CornerOutline& outline_;
+  double most_twice_m2_;
+  std::vector<bool> is_seen_;
+  std::vector<std::vector<std::uint16_t>> by_count_;
+};
+
+std::span<const std::uint16_t> choices_of(const CornerOutline& outline, std::size_t count) {
+  const std::span<const std::uint16_t> all(outline.choices);
+  return all.subspan(outline.choice_ends[count - 1],
+                     outline.choice_ends[count] - outline.choice_ends[count - 1]);
+}
+
 /// The least error over the mappings that it is shown.
 class MappingSearch {
  public:
@@ -141,12 +193,9 @@ class MappingSearch {
     best_ = {0.0, all, 0, Affine{}, laid_on_mean_, laid_on_mean_};
   }
 
-  /// Every choice of corners that removals within the bound on area lead to, each once.
+  /// Every choice of corners that removals within the bound on area lead to.
   void try_all_choices(LabelRule labels) {
-    if (from_.count == to_.count) return try_shifts(all_of(from_.count), labels);
-    constexpr std::size_t kWordBits = 64;
-    std::fill_n(seen_.begin(), (std::size_t{1} << from_.count) / kWordBits + 1, 0U);
-    remove_corner(all_of(from_.count), labels);
+    for (const std::uint16_t corners : choices_of(from_, to_.count)) try_shifts(corners, labels);
   }
 
   /// All cyclic shifts of a choice of corners: the least-squares map is C_ba C_aa^-1.
@@ -194,33 +243,13 @@ class MappingSearch {
     return is_matched;
   }
 
-  void remove_corner(std::uint32_t corners, LabelRule labels) {
-    const CornerCycle cycle(from_, corners);
-    if (cycle.count() == to_.count) return try_shifts(corners, labels);
-    const double most = 2.0 * options_.area_loss_01 * from_.corner_area_m2;
-    for (std::size_t k = 0; k < cycle.count(); ++k) {
-      if (cycle.twice_triangle_m2(k) > most) continue;
-      const std::uint32_t rest = corners & ~cycle.set_of(k);
-      if (is_first_visit(rest)) remove_corner(rest, labels);
-    }
-  }
-
-  bool is_first_visit(std::uint32_t corners) {
-    constexpr std::uint32_t kWordBits = 64;
-    std::uint64_t& word = seen_[corners / kWordBits];
-    const std::uint64_t bit = std::uint64_t{1} << (corners % kWordBits);
-    const bool is_first = (word & bit) == 0;
-    word |= bit;
-    return is_first;
-  }
-
   void try_shift(const Choice& a, const Matrix& inverse, std::size_t offset) {
     const Matrix c = moments(&laid_on_[offset], a);
     if (!(c.determinant() > 0.0)) return;
     const Matrix map = c * inverse;
     // The summed distance is at least the root of the summed squares.
     const double residual = laid_on_squares_ * (1.0 - kRoundingShare) - map.product_sum(c);
-    if (mismatch_factor_ * mismatch_factor_ * residual >= best_.error * best_.error) return;
+    if (residual > bounds_.residual || !is_within_bounds(map)) return;
     take(a, map, offset, residual > 0.0 ? mismatch_factor_ * std::sqrt(residual) : 0.0);
   }
 
@@ -246,7 +275,40 @@ class MappingSearch {
     if (!(distortion + least_mismatch < best_.error)) return;
     const Affine linear{map.xx, map.xy, map.yx, map.yy, {}};
     const double error = distortion + mismatch_factor_ * mismatch_m(a, linear, offset);
-    if (error < best_.error) best_ = {error, a.corners, offset, linear, a.mean, laid_on_mean_};
+    if (!(error < best_.error)) return;
+    best_ = {error, a.corners, offset, linear, a.mean, laid_on_mean_};
+    set_bounds();
+  }
+
+  /// What one term alone must not exceed, in squares: to know it takes no root and no division.
+  struct Bounds {
+    double residual = std::numeric_limits<double>::infinity();
+    double scale = std::numeric_limits<double>::infinity();
+    double aspect = std::numeric_limits<double>::infinity();
+    double sine = std::numeric_limits<double>::infinity();
+  };
+
+  void set_bounds() {
+    const auto squared = [](double x) { return x * x; };
+    // A weight of zero bounds nothing: the quotient is infinite.
+    const double left = best_.error * (1.0 + kRoundingShare);
+    bounds_.residual = squared(left / mismatch_factor_);
+    bounds_.scale = squared(1.0 + left / (distortion_factor_ * options_.scale_weight));
+    bounds_.aspect = squared(1.0 + left / (distortion_factor_ * options_.aspect_weight));
+    bounds_.sine =
+        squared(0.5 * std::numbers::pi * left / (distortion_factor_ * options_.shear_weight));
+  }
+
+  [[nodiscard]] bool is_within_bounds(const Matrix& map) const {
+    const Point u{map.xx, map.yx};
+    const Point v{map.xy, map.yy};
+    const double uu = squared_length(u);
+    const double vv = squared_length(v);
+    const double sum = squared_length(u + v);
+    const double uv = dot(u, v);
+    return std::max(uu, vv) <= bounds_.aspect * std::min(uu, vv) &&
+           std::max(sum, 2.0) <= bounds_.scale * std::min(sum, 2.0) &&
+           uv * uv <= bounds_.sine * uu * vv;
   }
 
   /// Summed distance of corresponding corners, metres.
@@ -268,8 +330,7 @@ class MappingSearch {
   double laid_on_squares_ = 0.0;
   bool has_mismatch_ = false;
   VertexMapping best_;
-  // One bit per set of corners; only as many as needed are cleared.
-  std::array<std::uint64_t, (std::size_t{1} << kMaxMappedCorners) / 64 + 1> seen_;
+  Bounds bounds_;
 };
 
 /// The corners that are left when those of the smallest triangles are removed one by one.
@@ -290,6 +351,17 @@ std::uint32_t largest_corners(const CornerOutline& outline, std::size_t count) {
 }
 
 }  // namespace
+
+void find_choices(CornerOutline& outline, double area_loss_01) {
+  const ChoiceSearch search(outline, area_loss_01);
+  outline.choices.clear();
+  outline.choice_ends.fill(0);
+  for (std::size_t count = 0; count <= outline.count; ++count) {
+    const auto& found = search.by_count()[count];
+    outline.choices.insert(outline.choices.end(), found.begin(), found.end());
+    outline.choice_ends[count] = static_cast<std::uint32_t>(outline.choices.size());
+  }
+}
 
 VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline& to,
                                   const Options& options) {

@@ -301,6 +301,8 @@ TEST(AffineVertexSimilarity, IsFiniteForAnyPair) {
           const auto a = measure.prepare(shapes[i]).value();
           const auto b = measure.prepare(other).value();
           EXPECT_LE(a.outline.count, static_cast<std::size_t>(corners));
+          for (std::size_t n = 1; n <= a.outline.count; ++n)  // 12 over 6
+            EXPECT_LE(a.outline.choice_ends[n] - a.outline.choice_ends[n - 1], 924U);
           const double d = measure.distance(a, b);
           EXPECT_TRUE(std::isfinite(d) && d >= 0.0) << i << ' ' << d;
         }

@@ -21,12 +21,12 @@ ShapeComparison compare(const BoxSimilarity::Options& options, const LabelledSha
 }
 
 TEST(BoxSimilarity, ComparesAreaAndAspectRatioInLogarithms) {
-  // 20 x 10 and 10 x 40: twice the area, twice the aspect ratio.
+  // 20 x 10 and 20 x 80: eight times the area, twice the aspect ratio.
   const LabelledShape a = rectangle(20, 10);
-  const LabelledShape b = rectangle(10, 40);
-  EXPECT_NEAR(compare({1.0, 0.0}, a, b).distance, std::log(2.0), 1e-12);
+  const LabelledShape b = rectangle(20, 80);
+  EXPECT_NEAR(compare({1.0, 0.0}, a, b).distance, 3.0 * std::log(2.0), 1e-12);
   EXPECT_NEAR(compare({0.0, 3.0}, a, b).distance, 3.0 * std::log(2.0), 1e-12);
-  EXPECT_NEAR(compare({1.0, 1.0}, a, b).distance, std::sqrt(2.0) * std::log(2.0), 1e-12);
+  EXPECT_NEAR(compare({1.0, 1.0}, a, b).distance, std::sqrt(10.0) * std::log(2.0), 1e-12);
 }
 
 TEST(BoxSimilarity, LaysBoxOnBoxWithoutAMirror) {

@@ -94,6 +94,18 @@ TEST(MergedSimilarity, DoesNotMergeWhereAreasDifferTooMuch) {
   EXPECT_EQ(compare_merged(measure(), uneven, 0, alone(0, 0, 20, 10), 0, {})->unions_compared, 0U);
 }
 
+TEST(MergedSimilarity, AUnionDoesNotHoldTheOtherShape) {
+  // A cell, the lot of three cells beside it, and nothing else to grow into.
+  const ShapeNeighbourhood two(
+      {cell(0, 0), {{{{10, 0}, {40, 0}, {40, 10}, {10, 10}}, {}}, {}, ""}});
+  const MergeOptions options{.stop_area_ratio = 10};
+  EXPECT_EQ(compare_merged(measure(), two, 0, two, 1, options)->unions_compared, 0U);
+  EXPECT_EQ(compare_merged(measure(), two, 1, two, 0, options)->unions_compared, 0U);
+  // Another object is another place.
+  const ShapeNeighbourhood copy = two;
+  EXPECT_EQ(compare_merged(measure(), two, 0, copy, 1, options)->unions_compared, 1U);
+}
+
 TEST(MergedSimilarity, SaysWhenNotAllUnionsWereLookedAt) {
   std::vector<LabelledShape> cells;
   for (int i = 0; i < 25; ++i) cells.push_back(cell(i % 5, i / 5));
