@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "harness/layer_rows_internal.h"
 
@@ -157,6 +158,7 @@ std::vector<std::vector<tiles::Corner>> corners_of(const LayerRows& rows, const 
 }
 
 void read_tiles_layer(const LayerRows& rows, TileLayout& layout) {
+  std::set<TileId> seen;
   for (const Feature& feature : rows.layer().features) {
     const auto real = [&](std::string_view field) { return rows.needed_real(feature, field); };
     Tile tile;
@@ -164,6 +166,7 @@ void read_tiles_layer(const LayerRows& rows, TileLayout& layout) {
     if (tile.id.value >= layout.next_id)
       rows.refuse(feature,
                   fmt::format("tile must be below {}, the document's next_tile", layout.next_id));
+    if (!seen.insert(tile.id).second) rows.refuse(feature, "its tile id comes twice");
     tile.source_id = rows.text(feature, "source");
     tile.zone = rows.text(feature, "zone");
     tile.block = rows.needed_id(feature, "block");

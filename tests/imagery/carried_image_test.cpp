@@ -9,6 +9,7 @@
 
 #include "imagery/made_parcels.h"
 #include "support/property.h"
+#include "support/utm_frame.h"
 
 namespace plat::imagery {
 namespace {
@@ -21,18 +22,6 @@ using plat::testing::rectangle;
 
 constexpr double kPixel_m = 0.5;
 constexpr Colour kBare{40, 50, 60, 255};
-constexpr std::string_view kUtm10 =
-    R"w(PROJCRS["WGS 84 / UTM zone 10N",BASEGEOGCRS["WGS 84",DATUM["World Geodetic System 1984",)w"
-    R"w(ELLIPSOID["WGS 84",6378137,298.257223563,LENGTHUNIT["metre",1]]],)w"
-    R"w(PRIMEM["Greenwich",0,ANGLEUNIT["degree",0.0174532925199433]],ID["EPSG",4326]],)w"
-    R"w(CONVERSION["UTM zone 10N",METHOD["Transverse Mercator",ID["EPSG",9807]],)w"
-    R"w(PARAMETER["Latitude of natural origin",0,ANGLEUNIT["degree",0.0174532925199433]],)w"
-    R"w(PARAMETER["Longitude of natural origin",-123,ANGLEUNIT["degree",0.0174532925199433]],)w"
-    R"w(PARAMETER["Scale factor at natural origin",0.9996,SCALEUNIT["unity",1]],)w"
-    R"w(PARAMETER["False easting",500000,LENGTHUNIT["metre",1]],)w"
-    R"w(PARAMETER["False northing",0,LENGTHUNIT["metre",1]]],CS[Cartesian,2],)w"
-    R"w(AXIS["(E)",east,ORDER[1],LENGTHUNIT["metre",1]],)w"
-    R"w(AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]],ID["EPSG",32610]])w";
 
 /// A picture of noise, 120 x 80 m from the frame's origin, in a file.
 class CarriedImage : public ::testing::Test {
@@ -61,7 +50,7 @@ class CarriedImage : public ::testing::Test {
   }
   [[nodiscard]] GroundPainter bare() const { return plain_ground(grid(), kBare); }
 
-  geodata::LocalFrame frame_{std::string(kUtm10), {548000.0, 4180000.0}};
+  geodata::LocalFrame frame_ = plat::testing::utm_frame();
   Raster noise_;
   std::filesystem::path file_;
   std::unique_ptr<SharedImage> source_;

@@ -1,0 +1,150 @@
+#include "harness/tile_document.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/rng.h"
+#include "geodata/layer_io.h"
+#include "harness/city_file.h"
+#include "harness/tile_imagery.h"
+#include "support/utm_frame.h"
+#include "tiles/reconfiguration.h"
+
+namespace plat::harness {
+namespace {
+
+using tiles::TileLayout;
+
+/// Two tiles that share an edge and one across a street, with every field set to what rounding
+/// would change.
+TileLayout layout() {
+  TileLayout out;
+  const auto add = [&](Point p, bool is_joint) { out.vertices.push_back({p, is_joint}); };
+  for (const double x : {0.0, 20.0, 40.0, 52.0, 80.0}) {
+    add({x, 0.0}, x != 0.0);
+    add({x, 30.0009765625}, true);
+  }
+  const auto tile = [&](std::uint32_t id, std::uint32_t block, std::uint32_t first) {
+    tiles::Tile made;
+    made.id = {id};
+    made.source_id = "lot \"7\"; é";
+    made.zone = id == 3 ? "" : "housing";
+    made.block = block;
+    made.placement = {1.0 / 3.0, 1e-17, -0.1, 0.7, {1e5 / 7.0, -2.0 / 3.0}};
+    made.is_pinned = id == 5;
+    auto& ring = made.rings.emplace_back();
+    for (const std::uint32_t v : {first, first + 2, first + 3, first + 1})
+      ring.push_back({v, out.vertices[v].at + Point{0.1 / 3.0, -1e-9}});
+    out.tiles.push_back(std::move(made));
+  };
+  tile(5, 0, 0);
+  tile(3, 0, 2);
+  tile(9, 1, 6);
+  out.links.push_back({1, {45.1, 1.0 / 3.0}, 2, {46.2, 7.0 / 9.0}, 12.0 / 7.0});
+  out.next_id = 12;
+  return out;
+}
+
+class TileDocument : public ::testing::Test {
+ protected:
+  TileDocument()
+      : file_((std::filesystem::temp_directory_path() /
+               ("plat_tile_document_" + std::to_string(::getpid()) + ".gpkg"))
+                  .string()) {}
+  ~TileDocument() override { std::filesystem::remove(file_); }
+
+  void write(const editing::City& city) const {
+    geodata::write_layers(file_, city_layers(city, testing::utm_frame()));
+  }
+  [[nodiscard]] std::string bytes() const {
+    std::ifstream in(file_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  std::string file_;
+};
+
+TEST_F(TileDocument, IsReadBackToTheLastBit) {
+  write(editing::make_city_of_tiles({}, layout(), {}));
+  const PlacedCity again = read_city(file_, {});
+  ASSERT_TRUE(again.city.tiles());
+  EXPECT_EQ(*again.city.tiles(), layout());
+  const std::string first = bytes();
+  write(again.city);
+  EXPECT_EQ(bytes(), first);
+}
+
+TEST_F(TileDocument, ACityWithoutTilesHasNone) {
+  write(editing::make_city({}, {}));
+  EXPECT_FALSE(read_city(file_, {}).city.tiles());
+}
+
+TEST_F(TileDocument, WhatIsNoLayoutIsRefusedWithLayerAndFeature) {
+  const auto refusal = [&](const TileLayout& spoilt) -> std::string {
+    write(editing::make_city_of_tiles({}, spoilt, {}));
+    try {
+      static_cast<void>(read_city(file_, {}));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  TileLayout repeated = layout();
+  repeated.tiles[1].id = repeated.tiles[0].id;
+  EXPECT_NE(refusal(repeated).find("tiles: feature 2: its tile id comes twice"), std::string::npos);
+  TileLayout beyond = layout();
+  beyond.next_id = 9;
+  EXPECT_NE(refusal(beyond).find("tiles: feature 3: tile must be below 9"), std::string::npos);
+}
+
+/// Tiles of one row that share edges, 10 m wide; those from `first` on were observed `by` away.
+TileLayout row(std::size_t count, std::size_t first, std::size_t last, Point by) {
+  TileLayout out;
+  for (std::size_t i = 0; i <= count; ++i) {
+    out.vertices.push_back({{10.0 * static_cast<double>(i), 0.0}, true});
+    out.vertices.push_back({{10.0 * static_cast<double>(i), 20.0}, true});
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point shift = i >= first && i < last ? by : Point{};
+    tiles::Tile tile;
+    tile.id = {static_cast<std::uint32_t>(i)};
+    tile.placement = Affine::translation(-shift);
+    auto& ring = tile.rings.emplace_back();
+    const auto v = static_cast<std::uint32_t>(2 * i);
+    for (const std::uint32_t corner : {v, v + 2, v + 3, v + 1})
+      ring.push_back({corner, out.vertices[corner].at + shift});
+    out.tiles.push_back(std::move(tile));
+  }
+  out.next_id = static_cast<std::uint32_t>(count);
+  return out;
+}
+
+TEST(TileImagery, KnowsTilesThatCameFromElsewhere) {
+  EXPECT_EQ(tiles_from_elsewhere(row(5, 5, 5, {})), std::vector<bool>(5, false));
+  const std::vector<bool> expected{false, false, false, true, true, false, false, false};
+  EXPECT_EQ(tiles_from_elsewhere(row(8, 3, 5, {300.0, 100.0})), expected);
+}
+
+TEST(TileImagery, TilesFromElsewhereDoNotPullTheGround) {
+  const auto still = ground_at_rest(row(8, 3, 5, {300.0, 100.0}));
+  EXPECT_EQ(still({40.0, 25.0}), Point(40.0, 25.0));
+  // Where all have moved, the ground has.
+  const auto moved = ground_at_rest(row(6, 0, 6, {3.0, 4.0}));
+  EXPECT_LT(distance(moved({30.0, 25.0}), {33.0, 29.0}), 1e-9);
+}
+
+TEST(TileImagery, ATileShowsItsOwnPieceAndCutLandNone) {
+  TileLayout made = row(3, 1, 2, {300.0, 100.0});
+  made.tiles[2].zone = tiles::kVacantZone;
+  const auto pieces = carried_tiles(made);
+  ASSERT_EQ(pieces.size(), 3U);
+  EXPECT_EQ(std::get<Affine>(pieces[0].shows), Affine{});
+  EXPECT_EQ(std::get<Affine>(pieces[1].shows), Affine::translation({300.0, 100.0}));
+  EXPECT_TRUE(std::holds_alternative<geodata::Colour>(pieces[2].shows));
+}
+
+}  // namespace
+}  // namespace plat::harness
