@@ -31,5 +31,6 @@ void add_measures_command(CLI::App& app, Action& action);
 void add_transitions_command(CLI::App& app, Action& action);
 void add_imagery_command(CLI::App& app, Action& action);
 void add_orthophoto_command(CLI::App& app, Action& action);
+void add_similarity_command(CLI::App& app, Action& action);
 
 }  // namespace plat::cli

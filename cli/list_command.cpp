@@ -37,7 +37,7 @@ void for_each_family(Visit visit) {
         parcels::block_subdividers());
   visit("sequence_search", "Search of sequences (plat search --method NAME --set key=value)",
         sequences::sequence_searches());
-  visit("shape_similarity", "Distances between shapes (names and options for experiments)",
+  visit("shape_similarity", "Shape similarity (plat similarity --measure NAME --set key=value)",
         similarity::shape_similarities());
   visit("street_grower", "Street growth (plat synthesize SCRIPT.json, whose \"grower\" names one)",
         streets::street_growers());

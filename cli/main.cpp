@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   plat::cli::add_transitions_command(app, action);
   plat::cli::add_imagery_command(app, action);
   plat::cli::add_orthophoto_command(app, action);
+  plat::cli::add_similarity_command(app, action);
   try {
     app.parse(argc, argv);
     return action();

@@ -104,32 +104,49 @@ ParcelShapeSources parcel_shape_sources(const std::string& city) {
   return sources;
 }
 
-ReadParcelShapes read_parcel_shapes(const ParcelShapeSources& sources, Jobs jobs) {
+ReadFrontedParcels read_fronted_parcels(const ParcelShapeSources& sources, Jobs jobs) {
   geodata::ReadOptions options{.kind = geodata::GeometryKind::kPolygon};
   if (!sources.zone_field.empty()) options.fields.push_back(sources.zone_field);
   const geodata::Layer layer = geodata::read_layer(sources.parcels, options);
-  ReadParcelShapes out;
+  ReadFrontedParcels out;
   out.frame = layer.frame;
   Admitted admitted = admit_all(layer, sources.zone_field, jobs, out.failures);
   const ReadBlocks city = blocks_of(sources, layer.frame, admitted.parcels, jobs);
   std::vector<Polygon> polygons;
   for (const blocks::ObservedParcel& parcel : admitted.parcels) polygons.push_back(parcel.shape);
   const blocks::BlockAssignment homes = blocks::assign_to_blocks(city.blocks, polygons);
-  out.shapes.resize(polygons.size());
+  out.without_streets = homes.outside.size();
+  out.parcels.resize(polygons.size());
   parallel_for(city.blocks.size(), jobs, [&](std::size_t b) {
     std::vector<Polygon> inside;
     for (const std::uint32_t i : homes.of_block[b]) inside.push_back(polygons[i]);
-    const auto fronts = parcels::street_fronts(city.blocks[b], inside);
-    for (std::size_t k = 0; k < inside.size(); ++k)
-      out.shapes[homes.of_block[b][k]] = imagery::shape_of(std::move(inside[k]), fronts[k]);
+    auto fronts = parcels::street_fronts(city.blocks[b], inside);
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      FrontedParcel& parcel = out.parcels[homes.of_block[b][k]];
+      parcel.block = static_cast<std::uint32_t>(b);
+      parcel.fronts = std::move(fronts[k]);
+    }
   });
-  for (const std::uint32_t i : homes.outside)
-    out.shapes[i] = imagery::shape_of(polygons[i], std::nullopt);
-  out.without_streets = homes.outside.size();
-  for (std::size_t i = 0; i < out.shapes.size(); ++i) {
-    out.shapes[i].id = admitted.parcels[i].id;
-    out.shapes[i].zone = admitted.zones[i];
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    out.parcels[i].id = std::move(admitted.parcels[i].id);
+    out.parcels[i].zone = std::move(admitted.zones[i]);
+    out.parcels[i].polygon = std::move(polygons[i]);
   }
+  return out;
+}
+
+ReadParcelShapes read_parcel_shapes(const ParcelShapeSources& sources, Jobs jobs) {
+  ReadFrontedParcels read = read_fronted_parcels(sources, jobs);
+  ReadParcelShapes out{read.frame, {}, std::move(read.failures), read.without_streets};
+  out.shapes = parallel_map<imagery::ParcelShape>(read.parcels.size(), jobs, [&](std::size_t i) {
+    FrontedParcel& parcel = read.parcels[i];
+    std::optional<std::span<const Segment>> fronts;
+    if (parcel.block) fronts = parcel.fronts;
+    imagery::ParcelShape shape = imagery::shape_of(std::move(parcel.polygon), fronts);
+    shape.id = std::move(parcel.id);
+    shape.zone = std::move(parcel.zone);
+    return shape;
+  });
   return out;
 }
 

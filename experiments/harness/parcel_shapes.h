@@ -23,6 +23,26 @@ struct ParcelShapeSources {
 /// for parcels alone. @throws InputError where the file has several layers, none called parcels
 ParcelShapeSources parcel_shape_sources(const std::string& city);
 
+/// A parcel of a city, its block, and which parts of its boundary face streets.
+struct FrontedParcel {
+  std::string id;
+  std::string zone;
+  Polygon polygon;                     ///< on the working grid
+  std::optional<std::uint32_t> block;  ///< none: in no block, streets unknown
+  std::vector<Segment> fronts;         ///< as parcels::street_fronts gives them
+};
+
+struct ReadFrontedParcels {
+  geodata::LocalFrame frame;
+  std::vector<FrontedParcel> parcels;          ///< in file order
+  std::vector<blocks::BlockFailure> failures;  ///< features that are no usable parcel
+  std::size_t without_streets = 0;             ///< parcels in no block
+};
+
+/// Every polygon of the layer with its fronts along the street edges of its block.
+/// @throws InputError as geodata::read_layer
+ReadFrontedParcels read_fronted_parcels(const ParcelShapeSources& sources, Jobs jobs);
+
 struct ReadParcelShapes {
   geodata::LocalFrame frame;
   std::vector<imagery::ParcelShape> shapes;    ///< on the working grid, in file order
@@ -30,8 +50,7 @@ struct ReadParcelShapes {
   std::size_t without_streets = 0;             ///< shapes in no block: their streets are unknown
 };
 
-/// Every polygon of the layer as a shape, with the sides that face streets: fronts along the street
-/// edges of its block (parcels::street_fronts).
+/// Every polygon of the layer as a shape, with the sides that face streets.
 /// @throws InputError as geodata::read_layer
 ReadParcelShapes read_parcel_shapes(const ParcelShapeSources& sources, Jobs jobs);
 
