@@ -7,6 +7,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 import numpy  # noqa: E402
 from figure import make  # noqa: E402
+from matplotlib.patches import Patch  # noqa: E402
 from drawing import INK, bounds_of, caption, fill, letter, open_map, sheet  # noqa: E402
 from places import Place, Window, layer  # noqa: E402
 
@@ -75,6 +76,11 @@ def draw(figure):
         open_map(axes, bounds_of(tiles, 0.02), scale=key == "a")
         letter(axes, key, f"{len(order)} clusters mostly by {name}")
         fill(axes, tiles, [colour[k] for k in clusters], INK, 0.25)
+        text = "{:.0f} m²" if name == "area" else "{:.2f} rad"
+        typical = [numpy.exp(by[clusters == k].mean()) if name == "area" else by[clusters == k].mean() for k in order]
+        axes.legend(handles=[Patch(color=colour[k], label=f"{text.format(v)} ({(clusters == k).sum()})")
+                             for k, v in zip(order, typical)], fontsize=6.5, loc="upper left",
+                    title="area" if name == "area" else "deviation of angles", title_fontsize=7)
         of = dict(zip(tiles["source_id"], tiles["cluster"]))
         for own, nearest in zip(tiles["cluster"], tiles["nearest_1"]):
             if isinstance(nearest, str):
