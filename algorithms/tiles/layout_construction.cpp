@@ -71,7 +71,14 @@ void refuse_repetitions(Pieces& pieces) {
   }
 }
 
-/// The tiles of one block, ids their pieces' numbers, each vertex at the mean.
+/// The layout with its joints selected and its gaps closed.
+TileLayout standing(TileLayout layout, const ConstructionOptions& options) {
+  for (LayoutVertex& vertex : layout.vertices) vertex.is_joint = false;
+  layout = settled(std::move(layout));  // joints are selected where vertices are
+  return settled(with_joints_selected(std::move(layout), options.near_m, options.collinear_m));
+}
+
+/// The tiles of one block, ids their pieces' numbers; vertices stand nowhere yet.
 TileLayout block_layout(const Pieces& pieces, std::span<const std::size_t> members,
                         double matching_m) {
   std::vector<Polygon> shapes;
@@ -90,7 +97,7 @@ TileLayout block_layout(const Pieces& pieces, std::span<const std::size_t> membe
     tile.rings = std::move(matched.tiles[k]);
     out.tiles.push_back(std::move(tile));
   }
-  return settled(std::move(out));
+  return out;
 }
 
 /// The tile that has most defects, the smallest of several; with one of its defects.
@@ -120,15 +127,15 @@ struct BlockResult {
   std::vector<std::pair<std::size_t, Failure>> refused;  ///< pieces
 };
 
-/// Takes tiles out until none overlaps another.
-BlockResult without_defects(TileLayout layout) {
-  BlockResult out{std::move(layout), {}};
+/// Lets tiles stand, and takes out tiles until none overlaps another.
+BlockResult without_defects(TileLayout layout, const ConstructionOptions& options) {
+  BlockResult out{standing(std::move(layout), options), {}};
   for (auto defects = find_tile_defects(out.layout); !defects.empty();
        defects = find_tile_defects(out.layout)) {
     auto [tile, failure] = worst_of(out.layout, defects);
     out.refused.emplace_back(out.layout.tiles[tile].id.value, std::move(failure));
     out.layout.tiles.erase(out.layout.tiles.begin() + tile);
-    out.layout = settled(std::move(out.layout));
+    out.layout = standing(std::move(out.layout), options);
   }
   return out;
 }
@@ -136,11 +143,12 @@ BlockResult without_defects(TileLayout layout) {
 /// The tiles of one block. Where matching itself makes tiles overlap (a place narrower than the
 /// tolerance), less of it may do: of the tolerances tried, the one that refuses fewest pieces.
 BlockResult match_block(const Pieces& pieces, std::span<const std::size_t> members,
-                        double matching_m) {
-  BlockResult best = without_defects(block_layout(pieces, members, matching_m));
+                        const ConstructionOptions& options) {
+  BlockResult best = without_defects(block_layout(pieces, members, options.matching_m), options);
   for (const double share : {0.5, 0.25}) {
     if (best.refused.empty()) break;
-    BlockResult finer = without_defects(block_layout(pieces, members, share * matching_m));
+    BlockResult finer =
+        without_defects(block_layout(pieces, members, share * options.matching_m), options);
     if (finer.refused.size() < best.refused.size()) best = std::move(finer);
   }
   return best;
@@ -211,7 +219,7 @@ LayoutConstruction construct_layout(std::span<const TilePiece> given,
   refuse_repetitions(pieces);
   const std::vector<std::vector<std::size_t>> members = by_block(pieces);
   auto blocks = parallel_map<BlockResult>(members.size(), jobs, [&](std::size_t b) {
-    return match_block(pieces, members[b], options.matching_m);
+    return match_block(pieces, members[b], options);
   });
   const auto take_refused = [&](const BlockResult& block) {
     for (const auto& [piece, failure] : block.refused) pieces.failures[piece] = failure;
@@ -220,7 +228,7 @@ LayoutConstruction construct_layout(std::span<const TilePiece> given,
 
   TileLayout all = joined(std::move(blocks));
   all.next_id = static_cast<std::uint32_t>(given.size());
-  BlockResult city = without_defects(std::move(all));
+  BlockResult city = without_defects(std::move(all), options);
   take_refused(city);
 
   LayoutConstruction out;

@@ -77,7 +77,7 @@ TEST(LayoutConstruction, NearVerticesBecomeOneHalfWay) {
   EXPECT_EQ(made.layout.vertices.size(), 6U);
   EXPECT_EQ(shared_edges(made.layout.tiles[0], made.layout.tiles[1]), 1U);
   EXPECT_EQ(shape_of(made.layout, made.layout.tiles[0]).outer,
-            (Ring{{0, 0}, {20.25, 0.125}, {20.25, 30.125}, {0, 30}}));
+            (Ring{{0.25, 0.125}, {20.25, 0.125}, {20.25, 30.125}, {0.25, 30.125}}));
   EXPECT_EQ(rest_shape_of(made.layout.tiles[1]), rectangle(20.5, 0.25, 45, 30.25));
 }
 
