@@ -185,7 +185,7 @@ class CyclicWarper {
       for (std::int32_t j = best_.first[i]; j <= best_.last[i]; ++j)
         if (i > 0 || j > best_.first[0]) add(i, j);
     // Row n is row 0 again: what lies in it comes before all else.
-    const auto last_row = static_cast<std::ptrdiff_t>(best_.last[size] - best_.first[size] + 1);
+    const std::ptrdiff_t last_row = best_.last[size] - best_.first[size] + 1;
     std::ranges::rotate(out, out.end() - last_row);
     return out;
   }
