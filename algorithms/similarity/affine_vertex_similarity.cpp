@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "similarity/corner_choices_internal.h"
 #include "similarity/outline_corners.h"
 #include "similarity/shape_admission.h"
 #include "similarity/vertex_mapping_internal.h"

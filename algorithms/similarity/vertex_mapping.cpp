@@ -2,11 +2,9 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <span>
-#include <vector>
 
 #include "similarity/affine_distortion.h"
-#include "similarity/outline_corners.h"
+#include "similarity/corner_choices_internal.h"
 #include "similarity/vertex_mapping_internal.h"
 
 namespace plat::similarity::detail {
@@ -21,10 +19,6 @@ constexpr double kLineShare = 1e-12;
 constexpr double kLeastSine = 1e-9;
 /// Of the sum of squares, what may be lost to rounding where the residual is taken as a difference.
 constexpr double kRoundingShare = 1e-12;
-
-constexpr std::size_t kTriangle = 3;
-
-constexpr std::uint32_t all_of(std::size_t count) { return (1U << count) - 1U; }
 
 /// A set of `count` corners, renamed: corner i becomes corner i - by.
 constexpr std::uint32_t rotated(std::uint32_t corners, std::size_t by, std::size_t count) {
@@ -88,78 +82,6 @@ Choice choose(const CornerOutline& outline, std::uint32_t corners) {
   out.mean = out.mean / static_cast<double>(out.count);
   for (std::size_t k = 0; k < out.count; ++k) out.at[k] = out.at[k] - out.mean;
   return out;
-}
-
-/// The corners of a set, in cyclic order.
-class CornerCycle {
- public:
-  CornerCycle(const CornerOutline& outline, std::uint32_t set) : outline_(outline) {
-    for (; set != 0; set &= set - 1)
-      corner_[count_++] = static_cast<std::uint32_t>(std::countr_zero(set));
-  }
-  [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] std::uint32_t set_of(std::size_t k) const { return 1U << corner_[k]; }
-  /// Twice the area of the triangle of the k-th corner and its neighbours.
-  [[nodiscard]] double twice_triangle_m2(std::size_t k) const {
-    const std::size_t before = k == 0 ? count_ - 1 : k - 1;
-    const std::size_t behind = k + 1 == count_ ? 0 : k + 1;
-    return std::abs(orientation(at(before), at(k), at(behind)));
-  }
-
- private:
-  [[nodiscard]] Point at(std::size_t k) const { return outline_.corners[corner_[k]]; }
-
-  const CornerOutline& outline_;
-  std::size_t count_ = 0;
-  std::array<std::uint32_t, kMaxMappedCorners> corner_;
-};
-
-/// The sets of corners that removals within the bound on area lead to.
-class ChoiceSearch {
- public:
-  ChoiceSearch(const CornerOutline& outline, double area_loss_01)
-      : outline_(outline),
-        most_twice_m2_(2.0 * area_loss_01 * outline.corner_area_m2),
-        is_seen_(std::size_t{1} << outline.count),
-        by_count_(outline.count + 1) {
-    visit(all_of(outline.count));
-  }
-
-  /// By number of corners; those of one number in the order in which they were found.
-  [[nodiscard]] const std::vector<std::vector<std::uint16_t>>& by_count() const {
-    return by_count_;
-  }
-
- private:
-  void visit(std::uint32_t corners) {
-    is_seen_[corners] = true;
-    const CornerCycle cycle(outline_, corners);
-    const std::size_t count = cycle.count();
-    by_count_[count].push_back(static_cast<std::uint16_t>(corners));
-    if (count == kTriangle) return;
-    // The corner of the smallest triangle first: the first choices then are good ones, and most
-    // mappings of the others need not be looked at closely.
-    std::size_t least = 0;
-    for (std::size_t k = 1; k < count; ++k) {
-      if (cycle.twice_triangle_m2(k) < cycle.twice_triangle_m2(least)) least = k;
-    }
-    for (std::size_t step = 0; step < count; ++step) {
-      const std::size_t k = (least + step) % count;
-      const std::uint32_t rest = corners & ~cycle.set_of(k);
-      if (cycle.twice_triangle_m2(k) <= most_twice_m2_ && !is_seen_[rest]) visit(rest);
-    }
-  }
-
-  const CornerOutline& outline_;
-  double most_twice_m2_;
-  std::vector<bool> is_seen_;
-  std::vector<std::vector<std::uint16_t>> by_count_;
-};
-
-std::span<const std::uint16_t> choices_of(const CornerOutline& outline, std::size_t count) {
-  const std::span<const std::uint16_t> all(outline.choices);
-  return all.subspan(outline.choice_ends[count - 1],
-                     outline.choice_ends[count] - outline.choice_ends[count - 1]);
 }
 
 /// The least error over the mappings that it is shown.
@@ -333,35 +255,7 @@ class MappingSearch {
   Bounds bounds_;
 };
 
-/// The corners that are left when those of the smallest triangles are removed one by one.
-std::uint32_t largest_corners(const CornerOutline& outline, std::size_t count) {
-  std::uint32_t corners = all_of(outline.count);
-  for (std::size_t left = outline.count; left > count; --left) {
-    const CornerCycle cycle(outline, corners);
-    const auto triangle = [&](std::size_t k) {
-      return rough_share(0.5 * cycle.twice_triangle_m2(k) / outline.corner_area_m2);
-    };
-    std::size_t least = 0;
-    for (std::size_t k = 1; k < left; ++k) {
-      if (triangle(k) < triangle(least)) least = k;
-    }
-    corners &= ~cycle.set_of(least);
-  }
-  return corners;
-}
-
 }  // namespace
-
-void find_choices(CornerOutline& outline, double area_loss_01) {
-  const ChoiceSearch search(outline, area_loss_01);
-  outline.choices.clear();
-  outline.choice_ends.fill(0);
-  for (std::size_t count = 0; count <= outline.count; ++count) {
-    const auto& found = search.by_count()[count];
-    outline.choices.insert(outline.choices.end(), found.begin(), found.end());
-    outline.choice_ends[count] = static_cast<std::uint32_t>(outline.choices.size());
-  }
-}
 
 VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline& to,
                                   const Options& options) {

@@ -25,10 +25,6 @@ struct VertexMapping {
   bool is_least_squares = true;  ///< false where the affine map was given up
 };
 
-/// Fills `choices` and `choice_ends`: every set of three or more corners that is left by removals,
-/// in any order, of which each changes the area by at most this share of the outline's.
-void find_choices(CornerOutline& outline, double area_loss_01);
-
 /// The mapping of least error, rules given up one by one where all are rejected.
 /// Pre: from.count >= to.count >= 3; choices are found.
 VertexMapping best_vertex_mapping(const CornerOutline& from, const CornerOutline& to,
