@@ -66,7 +66,7 @@ class Lists(CliTest):
 
     def test_strategies_have_options_with_ranges(self):
         strategies = {s["name"]: s for s in self.json_of("list", "strategies")}
-        self.assertLessEqual({"voronoi", "skeleton", "obb"}, set(strategies))
+        self.assertLessEqual({"voronoi", "skeleton", "obb", "affine_vertex", "descriptor", "box"}, set(strategies))
         for strategy in strategies.values():
             for option in strategy["options"]:
                 self.assertTrue(option["description"])
