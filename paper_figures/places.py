@@ -43,12 +43,12 @@ class Place:
         self.streets = ""
         near = window.shape().buffer(MARGIN_M)
         town = figure.path("town.gpkg")
-        parcels = _read(source["observed"]["parcels"], near)
+        parcels = mapped_layer(source["observed"]["parcels"], near)
         parcels.to_file(town, layer="parcels", driver="GPKG")
         command = ["blocks", "--parcels", f"{town}:parcels", "--out", figure.path("blocks.gpkg")]
         mapping = source["observed"].get("streets")
         if mapping:
-            _read(mapping, near).to_file(town, layer="streets", driver="GPKG")
+            mapped_layer(mapping, near).to_file(town, layer="streets", driver="GPKG")
             command += ["--streets", f"{town}:streets", *_street_words(mapping)]
             self.streets = f"{figure.path('blocks.gpkg')}:streets"
         figure.plat(*command)
@@ -143,7 +143,7 @@ class Comparison:
         return float(row["value"]), note
 
 
-def _read(mapping, near):
+def mapped_layer(mapping, near):
     """A layer that the catalogue names as PATH:LAYER, near a shape."""
     if mapping["where"]:
         raise FigureError(f"{mapping['layer']}: the catalogue's condition \"{mapping['where']}\" is not applied here")
