@@ -141,12 +141,9 @@ Expected<SolvedLayout> solved(TileLayout layout, const Targets& held,
 }
 
 Expected<TileLayout> settled_and_checked(TileLayout layout) {
-  TileLayout out = settled(layout);
-  auto defect = find_layout_defect(out);
-  if (!defect) return out;
-  out = settled_to_joints(std::move(layout));
-  if (!find_layout_defect(out)) return out;
-  return tl::unexpected(*std::move(defect));
+  TileLayout out = settled(std::move(layout));
+  if (auto defect = find_layout_defect(out)) return tl::unexpected(*std::move(defect));
+  return out;
 }
 
 void compare(const TileLayout& before, const TileLayout& after, const LayoutSolution& solution,

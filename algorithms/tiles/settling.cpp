@@ -1,30 +1,10 @@
 #include "tiles/settling.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/working_grid.h"
 
 namespace plat::tiles {
-
-TileLayout settled(TileLayout layout) {
-  std::vector<Point> sum(layout.vertices.size());
-  std::vector<std::uint32_t> count(layout.vertices.size(), 0);
-  for (const Tile& tile : layout.tiles) {
-    for (const auto& ring : tile.rings) {
-      for (const Corner& corner : ring) {
-        Point& total = sum.at(corner.vertex);
-        total = total + tile.placement(corner.rest);
-        ++count[corner.vertex];
-      }
-    }
-  }
-  for (std::size_t v = 0; v < sum.size(); ++v) {
-    if (count[v] > 0) layout.vertices[v].at = snap(sum[v] / static_cast<double>(count[v]));
-  }
-  return layout;
-}
 
 namespace {
 
@@ -49,11 +29,8 @@ class Means {
   std::vector<std::uint32_t> count_;
 };
 
-/// What is near a joint goes with it, so that a fine outline does not fold there: the less, the
-/// farther along the ring, up to this.
-constexpr double kGoesAlong_m = 10.0;
-
-/// Vertices of a ring that are no joints: where the tile has them, and with the joints near them.
+/// What is between two joints of a ring goes with them: shares of how far each joint went from
+/// where the tile has it, by the way along the ring.
 void add_between_joints(const TileLayout& layout, const Tile& tile, const std::vector<Corner>& ring,
                         Means& means) {
   const auto is_joint = [&](std::size_t i) { return layout.vertices[ring[i].vertex].is_joint; };
@@ -79,19 +56,15 @@ void add_between_joints(const TileLayout& layout, const Tile& tile, const std::v
     const Point end = gone((first + done) % n);
     for (std::size_t k = 1; k + 1 < way.size(); ++k) {
       const Corner& corner = ring[(from + k) % n];
-      double with_start = std::max(0.0, 1.0 - way[k] / kGoesAlong_m);
-      double with_end = std::max(0.0, 1.0 - (way.back() - way[k]) / kGoesAlong_m);
-      const double sum = std::max(1.0, with_start + with_end);
-      with_start /= sum;
-      with_end /= sum;
-      means.add(corner.vertex, tile.placement(corner.rest) + with_start * start + with_end * end);
+      const double share = way.back() > 0.0 ? way[k] / way.back() : 0.5;
+      means.add(corner.vertex, tile.placement(corner.rest) + lerp(start, end, share));
     }
   }
 }
 
 }  // namespace
 
-TileLayout settled_to_joints(TileLayout layout) {
+TileLayout settled(TileLayout layout) {
   Means joints(layout.vertices.size());
   for (const Tile& tile : layout.tiles) {
     for (const auto& ring : tile.rings) {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "tiles/reconfiguration_support.h"
-#include "tiles/settling.h"
 
 namespace plat::tiles {
 namespace {
@@ -161,33 +160,6 @@ TEST(Relax, TilesThatAreLetGoComeBack) {
   for (std::size_t v = 0; v < layout.vertices.size(); ++v)
     EXPECT_LT(distance(back->layout.vertices[v].at, layout.vertices[v].at), kRounding_m);
   EXPECT_FALSE(unpin_tiles(layout, {{TileId{9999}}}));
-}
-
-TEST(SettlingToJoints, FineOutlinesGoWithTheJointBesideThem) {
-  // A joint, a vertex of the same edge 0.5 m beside it, and a third tile that pulls the joint.
-  TileLayout layout;
-  for (const Point p :
-       {Point{0, 0}, {20, 0}, {20, 10}, {10.5, 10}, {10, 10}, {0, 10}, {0, 20}, {10, 20}, {20, 20}})
-    layout.vertices.push_back({p, true});
-  layout.vertices[3].is_joint = false;
-  const auto add = [&](std::vector<std::uint32_t> ring) {
-    Tile tile;
-    tile.id = {layout.next_id++};
-    tile.rings.emplace_back();
-    for (const std::uint32_t v : ring) tile.rings[0].push_back({v, layout.vertices[v].at});
-    layout.tiles.push_back(tile);
-  };
-  add({0, 1, 2, 3, 4, 5});
-  add({5, 4, 7, 6});
-  add({4, 3, 2, 8, 7});
-  ASSERT_EQ(defect_of(layout), "");
-  EXPECT_EQ(settled_to_joints(layout), settled(layout));
-  layout.tiles[1].placement = Affine::translation({3, 0});
-  EXPECT_NE(defect_of(settled(layout)), "");
-  const TileLayout bent = settled_to_joints(layout);
-  EXPECT_EQ(defect_of(bent), "");
-  EXPECT_EQ(settled_to_joints(bent), bent);
-  EXPECT_EQ(bent.vertices[4].at, settled(layout).vertices[4].at);
 }
 
 TEST(Relax, SameInputSameBytes) {
