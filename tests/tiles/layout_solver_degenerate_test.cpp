@@ -82,6 +82,7 @@ TEST(LayoutSolverDegenerate, AnEmptyLayoutIsSolved) {
   ASSERT_TRUE(solution);
   EXPECT_TRUE(solution->placements.empty());
   EXPECT_EQ(solution->mean_property_gap_m, 0.0);
+  EXPECT_EQ(solution->mean_street_gap_m, 0.0);
   EXPECT_EQ(solution->mean_deformation, 0.0);
 }
 
