@@ -1,6 +1,7 @@
 #include "tile_displacement/displacement_experiment.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -84,6 +85,58 @@ void solve_row(const LoadedCity& city, const Group& group, const Way& way, doubl
   row.objective = outcome->solution.objective;
 }
 
+/// Roles of the tiles of a layout that an operation has changed: those that have come are free.
+std::vector<Role> roles_after(const TileLayout& before, const std::vector<Role>& roles,
+                              const TileLayout& after) {
+  std::map<tiles::TileId, Role> known;
+  for (std::size_t i = 0; i < before.tiles.size(); ++i) known.emplace(before.tiles[i].id, roles[i]);
+  std::vector<Role> out;
+  for (const tiles::Tile& tile : after.tiles) {
+    const auto found = known.find(tile.id);
+    out.push_back(found == known.end() ? Role::kFree : found->second);
+  }
+  return out;
+}
+
+void replace_row(const LoadedCity& city, const Group& group, const Way& way,
+                 const DisplacementConfig& config, DisplacementRow& row) {
+  const ReplacementChoice& choice = *config.replacement;
+  tiles::ReconfigurationOptions options;
+  options.solver = way.solver;
+  options.reach_m = config.reach_m;
+  if (!row.similarity.empty()) {
+    options.similarity = row.similarity;
+    tiles::ReplacementOptions replacement;
+    replacement.deformation_threshold = choice.deformation_threshold;
+    replacement.gap_threshold_m = choice.gap_threshold_m;
+    replacement.candidates = choice.candidates;
+    replacement.max_rounds = choice.max_rounds;
+    options.replacement = replacement;
+  }
+  std::vector<tiles::TileId> ids;
+  for (const std::uint32_t tile : group.tiles) ids.push_back(city.layout.tiles[tile].id);
+  const Affine motion = Affine::translation(row.displacement_m * group.direction);
+  const auto result = tiles::move_tiles(city.layout, ids, motion, options);
+  if (!result) {
+    row.status = failure_name(result.error().code);
+    return;
+  }
+  const TileGraph graph = tiles::graph_of(result->layout);
+  std::vector<Affine> placements;
+  for (const tiles::Tile& tile : result->layout.tiles) placements.push_back(tile.placement);
+  Outcome outcome;
+  outcome.solution = tiles::measure_placements(graph, std::move(placements), way.solver);
+  outcome.joint_gaps_m = outcome.solution.gaps_m;
+  outcome.outer = outer_rings(result->layout);
+  const auto before = moved(city, group, row.displacement_m, config.reach_m).roles;
+  row.errors =
+      errors_of(result->layout, graph, roles_after(city.layout, before, result->layout), outcome);
+  row.objective = outcome.solution.objective;
+  row.replacements = result->report.replacements;
+  row.replacements_refused = result->report.replacements_refused;
+  row.rounds = result->report.rounds;
+}
+
 /// The rows of a city, not yet filled in.
 std::vector<DisplacementRow> rows_of(const DisplacementConfig& config, std::size_t city) {
   std::vector<DisplacementRow> out;
@@ -142,7 +195,7 @@ DisplacementResult run_displacements(const DisplacementConfig& config, Jobs jobs
       const std::string& name = is_operation ? config.replacement->way : row.way;
       const Way& way = *std::ranges::find(config.ways, name, &Way::name);
       if (is_operation) {
-        row.status = "not_yet";
+        replace_row(city, group, way, config, row);
       } else {
         solve_row(city, group, way, config.reach_m, row);
       }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -62,29 +63,43 @@ Piece read_piece(const json& object, const std::string& where) {
     if (!turn->is_number()) throw InputError(where + ".turn_deg: must be a number");
     out.turn_rad = turn->get<double>() * std::numbers::pi / 180.0;
   }
-  out.held_within_m = length_at(reader, "held_within_m", where);
+  constexpr std::int64_t kMostTiles = 1000000;
+  if (reader.find("held_tiles") != nullptr)
+    out.held_tiles = static_cast<std::size_t>(reader.whole("held_tiles", 1, 0, kMostTiles));
   reader.expect_nothing_else();
   return out;
+}
+
+/// Carries a piece, but for tiles that another one has.
+void carry(const Piece& piece, const TileGraph& graph, Point origin, std::vector<char>& is_carried,
+           Displacement& out) {
+  const Point center = piece.where.center_m - origin;
+  const Affine motion =
+      Affine::translation(piece.shift_m) * Affine::rotation(piece.turn_rad, center);
+  std::vector<std::pair<double, std::size_t>> nearest;
+  for (std::size_t i = 0; i < graph.tiles.size(); ++i) {
+    const Point middle = graph.tiles[i].centroid;
+    if (is_carried[i] != 0 || !piece.where.holds(middle + origin)) continue;
+    is_carried[i] = 1;
+    out.targets[i] = motion * out.targets[i];
+    nearest.emplace_back(distance(middle, center), i);
+  }
+  std::ranges::sort(nearest);
+  if (piece.held_tiles) nearest.resize(std::min(nearest.size(), *piece.held_tiles));
+  for (const auto& [away_m, tile] : nearest) out.roles[tile] = Role::kMoved;
 }
 
 /// The scene's displacement; the first piece that holds a tile has it.
 Displacement displacement_of(const Scene& scene, const TileLayout& layout, const TileGraph& graph,
                              Point origin) {
   Displacement out = undisplaced(layout);
+  std::vector<char> is_carried(layout.tiles.size(), 0);
+  for (const Piece& piece : scene.pieces) carry(piece, graph, origin, is_carried, out);
   for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
     const Point middle = graph.tiles[i].centroid + origin;
-    for (const Piece& piece : scene.pieces) {
-      if (!piece.where.holds(middle)) continue;
-      const Point center = piece.where.center_m;
-      out.targets[i] = Affine::translation(piece.shift_m) *
-                       Affine::rotation(piece.turn_rad, center - origin) * out.targets[i];
-      if (!piece.held_within_m || distance(middle, center) <= *piece.held_within_m)
-        out.roles[i] = Role::kMoved;
-      break;
-    }
-    for (const Region& region : scene.held) {
-      if (out.roles[i] == Role::kFree && region.holds(middle)) out.roles[i] = Role::kHeld;
-    }
+    const bool is_held =
+        std::ranges::any_of(scene.held, [&](const Region& region) { return region.holds(middle); });
+    if (is_held && out.roles[i] == Role::kFree) out.roles[i] = Role::kHeld;
   }
   if (scene.reach_m) hold_beyond(layout, *scene.reach_m, out);
   return out;

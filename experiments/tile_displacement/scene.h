@@ -26,9 +26,9 @@ struct Piece {
   Region where;
   Point shift_m;
   double turn_rad = 0.0;  ///< about the region's centre, counter-clockwise
-  /// Only tiles as near to the centre as this are held there, the others of the piece are free;
-  /// none: all are held.
-  std::optional<double> held_within_m;
+  /// Only so many tiles, those nearest to the centre, are held there, the others of the piece are
+  /// free; none: all are held.
+  std::optional<std::size_t> held_tiles;
 };
 
 /// One displacement of several pieces, made in several ways: what a figure shows.

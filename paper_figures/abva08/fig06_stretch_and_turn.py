@@ -16,13 +16,13 @@ from matplotlib.colors import Normalize  # noqa: E402
 CITY = {"dataset": "cambridge_ma", "tiles": 2000, "near_m": [230900.0, 902850.0]}
 #: By how much the middles of the parts are displaced outwards, of their distance from the middle of the layout.
 STRETCH = 0.1
-PARTS, CORE_M = 3, 50.0
+PARTS, CORE_TILES = 3, 6
 KEPT = 0.05
 APART = {"name": "apart", "by": "none"}
 TOGETHER = {"name": "together", "options": {"rigidity": 100, "keep_size": 1, "street_weight": 0.05}}
-SQUARE = [573850.0, 6136900.0]
-TURNED_M, FREE_M = 200.0, 600.0
-TURNS_DEG = [10.0, 25.0]
+SQUARE = [573840.0, 6137085.0]
+TURNED_M, FREE_M = 160.0, 600.0
+TURNS_DEG = [6.0, 12.0]
 
 
 def parts_of(bounds):
@@ -41,7 +41,7 @@ def stretched(figure):
     first = Shown(figure, "stretch_original", {"city": CITY})
     pieces = list(parts_of(first.tiles().total_bounds))
     apart = Shown(figure, "stretch_apart", {"city": CITY, "pieces": pieces, "ways": [APART]})
-    cores = [{**piece, "held_within_m": CORE_M} for piece in pieces]
+    cores = [{**piece, "held_tiles": CORE_TILES} for piece in pieces]
     return apart, Shown(figure, "stretch_together", {"city": CITY, "pieces": cores, "ways": [TOGETHER]})
 
 
@@ -51,6 +51,12 @@ def turned(figure, turn_deg):
     way = {"name": "turned", "options": {"rigidity": 10, "keep_size": 1}}
     return Shown(figure, f"turn_{turn_deg:g}", {"city": city, "pieces": [piece], "ways": [way],
                                                 "held": [{"center_m": SQUARE, "from_m": FREE_M}]})
+
+
+def turned_around(before, after):
+    """By how much each tile has gone around the square, degrees."""
+    old, new = ((t.geometry.centroid.x - SQUARE[0]) + 1j * (t.geometry.centroid.y - SQUARE[1]) for t in (before, after))
+    return numpy.degrees(numpy.angle((new / old).to_numpy()))
 
 
 def coloured(picture, axes, tiles, values, scale, colours, name, bounds):
@@ -85,7 +91,8 @@ def draw(figure):
     letter(d, "d", f"{len(square)} blocks around a square")
     for axes, key, turn, shown in zip((e, f), "ef", TURNS_DEG, turns):
         tiles = shown.tiles("turned")
-        coloured(picture, axes, tiles, turns_deg(tiles), Normalize(-max(TURNS_DEG), max(TURNS_DEG)), "PuOr", "turn, degrees", window)
+        coloured(picture, axes, tiles, turned_around(square, tiles), Normalize(-max(TURNS_DEG), max(TURNS_DEG)), "PuOr",
+                 "gone around the square, degrees", window)
         fill(axes, tiles[tiles["role"] == "moved"], "none", "black", 1.0)
         letter(axes, key, f"turned by {turn:g} degrees; black: held")
     caption(picture, figure)
@@ -107,7 +114,8 @@ def measure_claims(figure, observed, closed, together, changes, turns):
     free = (tiles["role"] == "free").to_numpy()
     middles = tiles.geometry.centroid
     away = numpy.hypot(middles.x - SQUARE[0], middles.y - SQUARE[1])[free]
-    figure.measured("turned", rank_correlation(turns_deg(placed)[free], away), f"{int(free.sum())} blocks")
+    figure.measured("turned", rank_correlation(turned_around(tiles, placed)[free], away),
+                    f"{int(free.sum())} blocks; of their turn about themselves {rank_correlation(turns_deg(placed)[free], away):.2f}")
     figure.measured("turn_deforms_little", turns[-1].errors("turned")["deformation"],
                     f"across streets {turns[-1].errors('turned')['street_gap_m']:.2f} m")
 
