@@ -81,6 +81,7 @@ ReplacementChoice read_replacement(const json& object, const DisplacementConfig&
   }
   for (const std::string& name : out.similarities)
     static_cast<void>(similarity::shape_similarities().make(name, {}));
+  out.reach_m = number_at(reader, "reach_m", config.reach_m, where, 0.0, 100000.0);
   out.deformation_threshold = number_at(reader, "deformation_threshold", 0.25, where, 0.0, 1e3);
   out.gap_threshold_m = number_at(reader, "gap_threshold_m", 4.0, where, 0.0, 1e4);
   out.candidates = static_cast<int>(reader.whole("candidates", 5, 1, 1000));

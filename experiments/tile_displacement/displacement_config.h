@@ -23,6 +23,7 @@ struct CityChoice {
 struct ReplacementChoice {
   std::string way;  ///< one of the ways
   std::vector<std::string> similarities;
+  double reach_m = 250.0;  ///< every candidate is a solution: fewer tiles make room than elsewhere
   double deformation_threshold = 0.25;
   double gap_threshold_m = 4.0;
   int candidates = 5;

@@ -103,7 +103,7 @@ void replace_row(const LoadedCity& city, const Group& group, const Way& way,
   const ReplacementChoice& choice = *config.replacement;
   tiles::ReconfigurationOptions options;
   options.solver = way.solver;
-  options.reach_m = config.reach_m;
+  options.reach_m = choice.reach_m;
   if (!row.similarity.empty()) {
     options.similarity = row.similarity;
     tiles::ReplacementOptions replacement;
@@ -128,7 +128,7 @@ void replace_row(const LoadedCity& city, const Group& group, const Way& way,
   outcome.solution = tiles::measure_placements(graph, std::move(placements), way.solver);
   outcome.joint_gaps_m = outcome.solution.gaps_m;
   outcome.outer = outer_rings(result->layout);
-  const auto before = moved(city, group, row.displacement_m, config.reach_m).roles;
+  const auto before = moved(city, group, row.displacement_m, choice.reach_m).roles;
   row.errors =
       errors_of(result->layout, graph, roles_after(city.layout, before, result->layout), outcome);
   row.objective = outcome.solution.objective;
