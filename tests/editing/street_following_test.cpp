@@ -42,7 +42,8 @@ TEST(StreetFollowing, ARigidMotionOfAllTilesIsThatOfTheStreets) {
 
 TEST(StreetFollowing, WhereNoTileMovesNoPointMoves) {
   const TileLayout before = grid_tiles(4, 4);
-  const StreetFollowing still(before, before);
+  const TileLayout turned = carried(before, Affine::rotation(0.7, {31.0, 17.0}));
+  const StreetFollowing still(turned, turned);
   const StreetFollowing first(before,
                               with_blocks_carried(before, 0, 4, Affine::translation({3, 1})));
   for (const Point p : places()) {
@@ -96,7 +97,8 @@ TEST(StreetFollowing, TilesThatAreGoneTakeNothingAlong) {
   after.tiles.erase(after.tiles.begin(), after.tiles.begin() + 4);  // the south-western block
   const StreetFollowing following(before, after);
   EXPECT_EQ(following({0.0, 0.0}), Point(0.0, 0.0));
-  EXPECT_NEAR(following({200.0, 80.0}).x, 205.0, kRounding_m);
+  // Between a tile that is gone and one that moved.
+  EXPECT_NEAR(following({100.0, 40.0}).x, 105.0, kRounding_m);
 }
 
 TEST(WidthChanges, AreHowFarTheFrontsPart) {
@@ -118,6 +120,16 @@ TEST(WidthChanges, AreNoneWhereEverythingIsTurned) {
   const City city = tiled_grid_city(3, 3);
   const TileLayout after = carried(*city.tiles(), Affine::rotation(1.0, {30.0, 200.0}));
   EXPECT_TRUE(width_changes(city, *city.tiles(), StreetFollowing(*city.tiles(), after)).empty());
+}
+
+TEST(WidthChanges, AreAcrossTheStreetAsItIsTurned) {
+  const City city = tiled_grid_city(3, 3);
+  const Affine turn = Affine::rotation(1.0, {30.0, 200.0});
+  TileLayout after = with_blocks_carried(*city.tiles(), 4, 4, Affine::translation({3.0, 0.0}));
+  after = carried(with_blocks_carried(after, 12, 4, Affine::translation({3.0, 0.0})), turn);
+  const auto changes = width_changes(city, *city.tiles(), StreetFollowing(*city.tiles(), after));
+  ASSERT_EQ(changes.size(), 2U);
+  for (const auto& [street, change_m] : changes) EXPECT_NEAR(change_m, 3.0, kRounding_m);
 }
 
 }  // namespace

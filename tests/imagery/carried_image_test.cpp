@@ -110,7 +110,9 @@ TEST_F(CarriedImage, TheSamePixelsForAnyThreadCountAndWindow) {
   const std::vector<CarriedPiece> pieces{
       {transformed(turn, rectangle(40, 20, 40, 40)), *turn.inverse()},
       {rectangle(5, 5, 10, 10), Colour{200, 0, 0, 255}}};
-  const auto wave = [](Point p) { return p + Point{std::sin(p.y / 9.0), std::cos(p.x / 7.0)}; };
+  const auto wave = [](Point p) {
+    return p + 6.0 * Point{std::sin(p.y / 9.0), std::cos(p.x / 7.0)};
+  };
   const auto ground = carried_ground(*source_, wave, grid());
   const Raster whole = draw(pieces, ground, Jobs{1});
   EXPECT_EQ(draw(pieces, ground, Jobs{3}).pixels, whole.pixels);
