@@ -27,7 +27,7 @@ struct Arguments {
   std::vector<std::string> settings;
   std::vector<std::string> cluster_settings;
   std::optional<std::uint32_t> keep;
-  std::string cheap = "descriptor";
+  std::string cheap = "box";
   std::size_t nearest = 5;
   std::string matrix;
   std::string out;

@@ -41,7 +41,7 @@ def draw_retrieval(out):
         axis.grid(axis="y", alpha=0.3)
     for axis in axes[:, 0]:
         axis.set_ylabel("precision at 10")
-    axes.flat[0].legend(fontsize=7)
+    axes.flat[-1].legend(fontsize=7, ncols=4, loc="lower left")
     figure.tight_layout()
     figure.savefig(out / "retrieval.png", dpi=110)
     plt.close(figure)

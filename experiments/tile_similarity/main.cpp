@@ -55,7 +55,7 @@ void run(const std::string& config_file, const std::filesystem::path& out, Jobs 
   const json object = read_json(config_file);
   const SimilarityConfig config = parse_similarity_config(object, config_file);
   const std::vector<PlaceResult> places = run_places(config, jobs);
-  const std::vector<PruningRow> pruning = run_pruning(config, jobs);
+  const PruningResult pruning = run_pruning(config, jobs);
   std::filesystem::create_directories(out);
   harness::write_file(out / "retrieval.csv", retrieval_csv(config, places));
   harness::write_file(out / "differences.csv", differences_csv(config, places));
@@ -63,7 +63,8 @@ void run(const std::string& config_file, const std::filesystem::path& out, Jobs 
   harness::write_file(out / "times.csv", times_csv(places));
   harness::write_file(out / "examples.csv", examples_csv(places));
   harness::write_file(out / "places.csv", places_csv(places));
-  harness::write_file(out / "pruning.csv", pruning_csv(pruning));
+  harness::write_file(out / "pruning.csv", pruning_csv(pruning.matrices));
+  harness::write_file(out / "candidates.csv", candidates_csv(pruning.candidates));
   const json manifest{{"build", harness::build_info()}, {"config", object}};
   harness::write_file(out / "manifest.json", manifest.dump(2) + "\n");
 }

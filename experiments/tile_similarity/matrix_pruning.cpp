@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <span>
 #include <utility>
 
+#include "core/rng.h"
 #include "harness/csv.h"
 #include "harness/tile_shapes.h"
+#include "similarity/candidate_search.h"
 #include "similarity/shape_clusters.h"
 #include "similarity/similarity_matrix.h"
 #include "tile_similarity/tile_gallery.h"
@@ -14,6 +17,8 @@
 namespace plat::tile_similarity {
 namespace {
 
+using harness::CsvTable;
+using similarity::Candidate;
 using similarity::LabelledShape;
 using similarity::SimilarityMatrix;
 
@@ -68,25 +73,86 @@ void add_rows(const PruningChoice& choice, std::uint64_t seed,
   }
 }
 
-}  // namespace
+/// The share of `wanted` that is among `found`.
+double share_found(std::span<const Candidate> wanted, std::span<const Candidate> found) {
+  const auto count = std::ranges::count_if(wanted, [&](const Candidate& candidate) {
+    return std::ranges::find(found, candidate.shape, &Candidate::shape) != found.end();
+  });
+  return static_cast<double>(count) / static_cast<double>(wanted.size());
+}
 
-std::vector<PruningRow> run_pruning(const SimilarityConfig& config, Jobs jobs) {
-  std::vector<PruningRow> rows;
-  if (!config.pruning) return rows;
-  harness::ParcelShapeSources sources;
-  sources.parcels = {file_of(config.pruning->dataset), "parcels"};
-  const harness::ReadTileShapes tiles = harness::read_tile_shapes(sources, jobs);
-  add_rows(*config.pruning, config.seed,
-           middle_part(tiles.shapes, static_cast<std::size_t>(config.pruning->tiles)), jobs, rows);
-  add_rows(*config.pruning, config.seed, tiles.shapes, jobs, rows);
+/// Searches for tiles drawn at random, each as a place that is to be filled by another one.
+std::vector<CandidateRow> candidate_rows(const PruningChoice& choice, std::uint64_t seed,
+                                         const std::vector<LabelledShape>& shapes, Jobs jobs) {
+  constexpr int kWanted = 5;
+  const similarity::Clusters clusters =
+      similarity::cluster_shapes(shapes, {.percent = choice.percent}, seed, jobs);
+  const similarity::CandidateSearch search(
+      shapes, clusters, similarity::shape_similarities().make(choice.measure), jobs);
+  Rng rng(derive_seed(seed, {seed_key("candidates")}));
+  std::vector<std::uint32_t> places;
+  for (int i = 0; i < choice.places; ++i)
+    places.push_back(static_cast<std::uint32_t>(rng.index(shapes.size())));
+  const auto found = [&](std::uint32_t place, int looked_into) {
+    auto candidates = search.most_similar(
+        shapes[place], {.count = kWanted, .clusters = looked_into}, std::span(&place, 1));
+    return candidates ? *candidates : std::vector<Candidate>{};
+  };
+  const auto all = static_cast<int>(clusters.members.size());
+  const auto best = parallel_map<std::vector<Candidate>>(
+      places.size(), jobs, [&](std::size_t i) { return found(places[i], all); });
+  std::vector<CandidateRow> rows;
+  for (const int looked_into : {1, 2, 3, 5, 10}) {
+    CandidateRow row{shapes.size(), clusters.members.size(), looked_into, 0, 0.0, 0.0, 0.0};
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (best[i].empty()) continue;  // the measure refuses the place
+      const std::vector<Candidate> some = found(places[i], looked_into);
+      ++row.places;
+      row.recall_at_1 += share_found(std::span(best[i]).first(1), some);
+      row.recall_at_5 += share_found(best[i], some);
+    }
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto count = static_cast<double>(std::max<std::size_t>(1, row.places));
+    row.recall_at_1 /= count;
+    row.recall_at_5 /= count;
+    row.milliseconds = 1000.0 * seconds / count;
+    rows.push_back(row);
+  }
   return rows;
 }
 
+}  // namespace
+
+PruningResult run_pruning(const SimilarityConfig& config, Jobs jobs) {
+  PruningResult out;
+  if (!config.pruning) return out;
+  harness::ParcelShapeSources sources;
+  sources.parcels = {file_of(config.pruning->dataset), "parcels"};
+  const harness::ReadTileShapes tiles = harness::read_tile_shapes(sources, jobs);
+  const std::vector<LabelledShape> part =
+      middle_part(tiles.shapes, static_cast<std::size_t>(config.pruning->tiles));
+  add_rows(*config.pruning, config.seed, part, jobs, out.matrices);
+  add_rows(*config.pruning, config.seed, tiles.shapes, jobs, out.matrices);
+  out.candidates = candidate_rows(*config.pruning, config.seed, part, jobs);
+  return out;
+}
+
 std::string pruning_csv(const std::vector<PruningRow>& rows) {
-  harness::CsvTable table("tiles,clusters,cheap,keep,entries,recall_at_1,recall_at_10,seconds");
+  CsvTable table("tiles,clusters,cheap,keep,entries,recall_at_1,recall_at_10,seconds");
   for (const PruningRow& row : rows)
     table.add_row(row.tiles, row.clusters, row.cheap.empty() ? "none" : row.cheap.c_str(), row.keep,
                   row.entries, row.recall_at_1, row.recall_at_10, row.seconds);
+  return table.text();
+}
+
+std::string candidates_csv(const std::vector<CandidateRow>& rows) {
+  CsvTable table(
+      "tiles,clusters,looked_into,places,recall_at_1,recall_at_5,milliseconds_per_search");
+  for (const CandidateRow& row : rows)
+    table.add_row(row.tiles, row.clusters, row.looked_into, row.places, row.recall_at_1,
+                  row.recall_at_5, row.milliseconds);
   return table.text();
 }
 

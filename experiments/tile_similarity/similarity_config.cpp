@@ -40,6 +40,7 @@ PruningChoice read_pruning(const json& object, const std::string& where) {
   PruningChoice out;
   out.dataset = geodata::dataset(required(reader, "dataset", where)).name;
   out.tiles = static_cast<int>(reader.whole("tiles", out.tiles, 2, 1000000));
+  out.places = static_cast<int>(reader.whole("places", out.places, 1, 1000000));
   out.measure = reader.text("measure", out.measure);
   const auto list = [&](std::string_view key) {
     const json* values = reader.find(key);

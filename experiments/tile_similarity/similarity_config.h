@@ -30,6 +30,7 @@ struct PruningChoice {
   std::string measure = "affine_vertex";
   std::vector<std::string> cheap;
   std::vector<std::uint32_t> keep;
+  int places = 100;  ///< tiles for which candidates are searched
 };
 
 struct SimilarityConfig {

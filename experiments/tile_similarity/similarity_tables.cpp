@@ -172,7 +172,8 @@ std::string examples_csv(const std::vector<PlaceResult>& places) {
   for (const PlaceResult& place : places) {
     const TileGallery& gallery = place.gallery;
     const std::size_t step = std::max<std::size_t>(1, gallery.queries.size() / kExampleQueries);
-    for (std::size_t q = 0; q < gallery.queries.size(); q += step) {
+    const std::size_t end = std::min(gallery.queries.size(), step * kExampleQueries);
+    for (std::size_t q = 0; q < end; q += step) {
       const std::uint32_t query = gallery.queries[q];
       for (const MeasureResult& measure : place.measures) {
         const std::vector<double>& distances = measure.distances[q];
