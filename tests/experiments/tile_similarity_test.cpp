@@ -94,7 +94,7 @@ TEST(BlockDifference, TellsABetterSideFromAnEqualOne) {
 TEST(Retrieval, CopiesAreFoundFirstByAMeasureThatCanAndCountedOnce) {
   TileGallery gallery;
   for (int i = 0; i < 30; ++i) {
-    gallery.shapes.push_back(rectangle(10.0 + i, 40.0 - i));
+    gallery.shapes.push_back(rectangle(10.0 + i, 80.0 - i));
     gallery.ids.push_back(std::to_string(i));
     gallery.blocks.push_back(static_cast<std::uint32_t>(i / 10));
     gallery.shapes.back().zone = i < 15 ? "a" : "";
