@@ -79,8 +79,9 @@ def draw(figure):
         text = "{:.0f} m²" if name == "area" else "{:.2f} rad"
         typical = [numpy.exp(by[clusters == k].mean()) if name == "area" else by[clusters == k].mean() for k in order]
         axes.legend(handles=[Patch(color=colour[k], label=f"{text.format(v)} ({(clusters == k).sum()})")
-                             for k, v in zip(order, typical)], fontsize=6.5, loc="upper left",
-                    title="area" if name == "area" else "deviation of angles", title_fontsize=7)
+                             for k, v in zip(order, typical)], fontsize=7, ncols=5, loc="upper center",
+                    bbox_to_anchor=(0.5, 0.0), title_fontsize=7.5,
+                    title="mean area (tiles)" if name == "area" else "mean deviation of interior angles (tiles)")
         of = dict(zip(tiles["source_id"], tiles["cluster"]))
         for own, nearest in zip(tiles["cluster"], tiles["nearest_1"]):
             if isinstance(nearest, str):
