@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/validity.h"
@@ -127,14 +128,21 @@ struct BlockResult {
   std::vector<std::pair<std::size_t, Failure>> refused;  ///< pieces
 };
 
-/// Lets tiles stand, and takes out tiles until none overlaps another.
+/// Lets tiles stand, and takes out tiles until none overlaps another. All that is wrong is taken
+/// out before tiles stand anew: standing costs as much as the check.
 BlockResult without_defects(TileLayout layout, const ConstructionOptions& options) {
   BlockResult out{standing(std::move(layout), options), {}};
   for (auto defects = find_tile_defects(out.layout); !defects.empty();
        defects = find_tile_defects(out.layout)) {
-    auto [tile, failure] = worst_of(out.layout, defects);
-    out.refused.emplace_back(out.layout.tiles[tile].id.value, std::move(failure));
-    out.layout.tiles.erase(out.layout.tiles.begin() + tile);
+    std::set<TileId> refused;
+    while (!defects.empty()) {
+      const auto [tile, failure] = worst_of(out.layout, defects);
+      refused.insert(out.layout.tiles[tile].id);
+      out.refused.emplace_back(out.layout.tiles[tile].id.value, failure);
+      std::erase_if(defects,
+                    [&](const TileDefect& d) { return d.tile == tile || d.other == tile; });
+    }
+    std::erase_if(out.layout.tiles, [&](const Tile& tile) { return refused.contains(tile.id); });
     out.layout = standing(std::move(out.layout), options);
   }
   return out;

@@ -96,6 +96,24 @@ TEST(LayoutConstruction, AVertexNearAnEdgeIsPutIntoIt) {
   EXPECT_EQ(rest_shape_of(tiles[0]).outer, (Ring{{0, 0}, {40, 0}, {40, 20}, {18, 20}, {0, 20}}));
 }
 
+TEST(LayoutConstruction, SeveralVerticesAreInAnEdgeInTheOrderOfItsWay) {
+  const LayoutConstruction made = construct_layout(
+      std::vector{piece("a", rectangle(0, 0, 40, 20)), piece("b", rectangle(0, 20, 12, 40)),
+                  piece("c", rectangle(12, 20, 24, 40)), piece("d", rectangle(24, 20, 40, 40))});
+  ASSERT_TRUE(made.failures.empty());
+  EXPECT_EQ(shape_of(made.layout, made.layout.tiles[0]).outer,
+            (Ring{{0, 0}, {40, 0}, {40, 20}, {24, 20}, {12, 20}, {0, 20}}));
+}
+
+TEST(LayoutConstruction, VerticesAreNotChainedBeyondTheTolerance) {
+  // Corners in a row, half a metre apart: a and b become one, c is a metre from a.
+  const LayoutConstruction made = construct_layout(
+      std::vector{piece("a", rectangle(0, 0, 20, 20)), piece("b", rectangle(20.5, 20, 40, 40)),
+                  piece("c", {{{21, 0}, {40, 0}, {40, 19.5}, {21, 20}}, {}})});
+  ASSERT_TRUE(made.failures.empty());
+  EXPECT_EQ(made.layout.vertices.size(), 10U);
+}
+
 TEST(LayoutConstruction, PiecesOfDifferentBlocksShareNothing) {
   const LayoutConstruction made = construct_layout(
       std::vector{piece("a", rectangle(0, 0, 20, 30), 0), piece("b", rectangle(20, 0, 45, 30), 1)});

@@ -59,10 +59,10 @@ TEST(Settling, TwiceIsOnce) {
 
 TEST(Settling, TheResidualIsHowFarVerticesAreFromThePlacement) {
   TileLayout layout = two_squares();
-  layout.tiles[1].placement = Affine::translation({2, 0});
+  layout.tiles[1].placement = Affine::translation({4, 0});
   layout = settled(std::move(layout));
-  EXPECT_NEAR(closing_residuals_m(layout)[0], 1.0, 1e-12);
-  EXPECT_NEAR(closing_residuals_m(layout)[1], 1.0, 1e-12);
+  EXPECT_NEAR(closing_residuals_m(layout)[0], 2.0, 1e-12);
+  EXPECT_NEAR(closing_residuals_m(layout)[1], 2.0, 1e-12);
 }
 
 TEST(Settling, TilesThatMoveTogetherAreNotBent) {
