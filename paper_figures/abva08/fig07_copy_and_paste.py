@@ -16,7 +16,7 @@ NEAR = [231720.0, 903500.0]
 TILES = 800
 #: A park of 1,100 m2 with two streets, and three places among residential parcels.
 SOURCE = [231592.0, 903668.0]
-PLACES = [[231830.0, 903530.0], [231660.0, 903480.0], [231510.0, 903575.0]]
+PLACES = [[231830.0, 903530.0], [231680.0, 903610.0], [231560.0, 903470.0]]
 SLIGHT_M = 5.0
 WINDOW = numpy.array([231440.0, 903400.0, 231920.0, 903720.0])
 LAND, PASTED = "#f2e6c9", "#7fb77e"

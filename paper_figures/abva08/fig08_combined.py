@@ -3,6 +3,7 @@
 import pathlib
 import sys
 
+import geopandas
 import numpy
 from shapely.geometry import LineString, Point
 
@@ -16,9 +17,10 @@ NEAR = [231720.0, 903500.0]
 TILES = 800
 #: Two parks, the one "museum", the other "army building", and residential land in the southeast and in the centre.
 MUSEUM, ARMY = [231592.0, 903668.0], [231493.0, 903657.0]
-SOUTHEAST, CENTRE = [231830.0, 903530.0], [231660.0, 903480.0]
-#: Gorham Street: its south end, where it bends, its north end. Tiles along it whose centroid is as near are turned.
-BENT = [[231775.0, 903387.0], [231719.0, 903489.0], [231680.0, 903594.0]]
+SOUTHEAST, CENTRE = [231830.0, 903530.0], [231560.0, 903470.0]
+#: A bent street: its south end at a crossing, where it bends, its north end. Tiles along it whose centroid is as near are turned.
+BENT = [[231746.0, 903435.0], [231719.0, 903489.0], [231680.0, 903594.0]]
+NEAR_STREET_M = 6.0
 ALONG_M = 22.0
 WINDOW = numpy.array([231440.0, 903380.0, 231920.0, 903720.0])
 ZONES = {"park": "#7fb77e", "residential": "#f2e6c9", "commercial": "#c9a0dc", "industrial": "#9db7d5", "other": "#bbbbbb",
@@ -46,24 +48,27 @@ def operations(observed):
     north = half(observed, BENT[1], BENT[2], set(south))
     for tiles, about, angle in zip((south, north), (BENT[0], BENT[2]), turn_deg()):
         out.append({"do": "move", "tiles": {"ids": tiles}, "angle_deg": float(angle), "about": about})
-    return out, south + north
+    return out
 
 
-def street_points(tiles, along):
-    """Where links cross the street: between two of the tiles along it, on its two sides."""
-    links = tiles.links
-    both = links["tile_a"].isin(along) & links["tile_b"].isin(along)
-    points = numpy.array([[p.x, p.y] for p in links.loc[both].geometry])
-    return points
+def bent_street(figure):
+    """The street's pieces in the observed city, by their ids."""
+    streets = geopandas.read_file(figure.path("observed.gpkg"), layer="streets").set_index("street")
+    near = LineString(BENT).buffer(NEAR_STREET_M)
+    return [i for i, g in streets.geometry.items() if near.contains(g)]
 
 
-def sagitta_m(points):
-    """How far the street bends off a straight line: of points by the least parabola, against its ends."""
-    middle = points.mean(axis=0)
-    axis = numpy.linalg.svd(points - middle)[2][0]
-    along, across = (points - middle) @ axis, (points - middle) @ numpy.array([-axis[1], axis[0]])
-    bend = numpy.polynomial.Polynomial.fit(along, across, 2).convert().coef[2]
-    return abs(bend) * ((along.max() - along.min()) / 2) ** 2
+def street_points(figure, name, pieces):
+    """Where the street's nodes are, from its south end to its north end: its lines follow the tiles."""
+    streets = geopandas.read_file(figure.path(f"{name}.gpkg"), layer="streets").set_index("street")
+    points = {p for i in pieces for p in streets.geometry[i].coords}
+    return numpy.array(sorted(points, key=lambda p: p[1]))
+
+
+def bend_m(points):
+    """How far the street is off the straight line between its ends."""
+    chord = points[-1] - points[0]
+    return numpy.abs(numpy.cross(chord / numpy.hypot(*chord), points - points[0])).max()
 
 
 def draw_zones(axes, tiles, key, text, marked=()):
@@ -77,30 +82,33 @@ def draw_zones(axes, tiles, key, text, marked=()):
 def draw(figure):
     session = Session(figure, "cambridge_ma", NEAR, TILES, {"reach_m": 200, "keep_size": 1})
     observed = session.observed()
-    script, along = operations(observed)
+    script = operations(observed)
     edited, rows = session.run("edited", script)
     _, new = gone_and_new(observed, edited)
+    pieces = bent_street(figure)
+    centre = {name: street_points(figure, name, pieces) for name in ("observed", "edited")}
 
-    picture, ((a, b), (c, d)) = sheet(2, 2, 14.0, 11.6)
+    picture, ((a, c), (b, d)) = sheet(2, 2, 14.0, 11.6)
     draw_zones(a, observed, "a", "observed; green: parks")
-    draw_zones(b, edited, "c", "edited; red: pasted tiles", new)
+    draw_zones(c, edited, "c", "edited; red: pasted tiles", new)
     corner = numpy.array([min(p[0] for p in BENT) - 60, min(p[1] for p in BENT) - 10,
                           max(p[0] for p in BENT) + 60, max(p[1] for p in BENT) + 10])
-    for axes, tiles, key, text in ((c, observed, "b", "a curved street"), (d, edited, "d", "straightened")):
+    for axes, tiles, key, text in ((b, observed, "b", "a curved street"), (d, edited, "d", "straightened")):
         open_map(axes, corner)
         fill(axes, tiles.frame, [ZONES[z or ""] for z in tiles.frame["zone"]], INK, 0.5)
-        points = street_points(tiles, along)
-        axes.scatter(points[:, 0], points[:, 1], s=14, color="#b2182b", zorder=5)
-        letter(axes, key, f"{text}; dots: middle of the street, bend {sagitta_m(points):.1f} m")
+        points = centre["observed" if tiles is observed else "edited"]
+        axes.plot(points[:, 0], points[:, 1], "o-", markersize=3, color="#b2182b", zorder=5)
+        axes.plot(points[[0, -1], 0], points[[0, -1], 1], "--", linewidth=0.8, color=INK, zorder=4)
+        letter(axes, key, f"{text}; red: its centre line, {bend_m(points):.1f} m off the straight line")
     caption(picture, figure)
     figure.save(picture)
-    measure_claims(figure, observed, edited, rows, along)
+    measure_claims(figure, observed, edited, rows, centre)
 
 
-def measure_claims(figure, observed, edited, rows, along):
+def measure_claims(figure, observed, edited, rows, centre):
     figure.measured("pasted", done(rows, "paste"), "of 3")
     figure.measured("rotations", done(rows, "move"), "of 2")
-    before, after = (sagitta_m(street_points(t, along)) for t in (observed, edited))
+    before, after = (bend_m(centre[name]) for name in ("observed", "edited"))
     figure.measured("straightened", after / before, f"bend {before:.2f} and {after:.2f} m")
     _, new = gone_and_new(observed, edited)
     zones, now = observed.frame["zone"].fillna(""), edited.frame["zone"].fillna("")
