@@ -9,6 +9,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 from figure import make  # noqa: E402
 from drawing import INK, caption, fill, letter, open_map, sheet  # noqa: E402
+from places import Window  # noqa: E402
 from reconfigured import Session, done, gone_and_new  # noqa: E402
 
 #: Parcels of several sizes around a bent street.
@@ -18,7 +19,8 @@ TILES = 800
 SOURCE = [231592.0, 903668.0]
 PLACES = [[231830.0, 903530.0], [231680.0, 903610.0], [231560.0, 903470.0]]
 SLIGHT_M = 5.0
-WINDOW = numpy.array([231440.0, 903400.0, 231920.0, 903720.0])
+WINDOW = Window("cambridge_ma", 231440.0, 903400.0, 231920.0, 903720.0,
+                "parcels of several sizes, and a park, around bent streets")
 LAND, PASTED = "#f2e6c9", "#7fb77e"
 
 
@@ -39,13 +41,13 @@ def unsolved(before, after):
 
 
 def draw_state(axes, tiles, marked, key, text):
-    open_map(axes, WINDOW)
+    open_map(axes, numpy.array(WINDOW.shape().bounds))
     fill(axes, tiles, [PASTED if t in marked else LAND for t in tiles.index], INK, 0.35)
     letter(axes, key, text)
 
 
 def draw(figure):
-    session = Session(figure, "cambridge_ma", NEAR, TILES, {"reach_m": 200, "keep_size": 1})
+    session = Session(figure, WINDOW.dataset, NEAR, TILES, {"reach_m": 200, "keep_size": 1})
     states, rows = pasted_one_by_one(session)
     first, last = states[0], states[-1]
     _, new = gone_and_new(first, last)

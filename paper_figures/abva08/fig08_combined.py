@@ -11,6 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 from figure import make  # noqa: E402
 from drawing import INK, caption, fill, letter, open_map, sheet  # noqa: E402
+from places import Window  # noqa: E402
 from reconfigured import Session, done, gone_and_new  # noqa: E402
 
 NEAR = [231720.0, 903500.0]
@@ -22,7 +23,8 @@ SOUTHEAST, CENTRE = [231830.0, 903530.0], [231560.0, 903470.0]
 BENT = [[231746.0, 903435.0], [231719.0, 903489.0], [231680.0, 903594.0]]
 NEAR_STREET_M = 6.0
 ALONG_M = 22.0
-WINDOW = numpy.array([231440.0, 903380.0, 231920.0, 903720.0])
+WINDOW = Window("cambridge_ma", 231440.0, 903380.0, 231920.0, 903720.0,
+                "parks among residential parcels, and a bent street")
 ZONES = {"park": "#7fb77e", "residential": "#f2e6c9", "commercial": "#c9a0dc", "industrial": "#9db7d5", "other": "#bbbbbb",
          "": "#f7f1e3"}
 
@@ -72,7 +74,7 @@ def bend_m(points):
 
 
 def draw_zones(axes, tiles, key, text, marked=()):
-    open_map(axes, WINDOW)
+    open_map(axes, numpy.array(WINDOW.shape().bounds))
     fill(axes, tiles.frame, [ZONES[z or ""] for z in tiles.frame["zone"]], INK, 0.35)
     shown = tiles.frame.loc[tiles.frame.index.isin(list(marked))]
     fill(axes, shown, "none", "#b2182b", 1.2)
@@ -80,7 +82,7 @@ def draw_zones(axes, tiles, key, text, marked=()):
 
 
 def draw(figure):
-    session = Session(figure, "cambridge_ma", NEAR, TILES, {"reach_m": 200, "keep_size": 1})
+    session = Session(figure, WINDOW.dataset, NEAR, TILES, {"reach_m": 200, "keep_size": 1})
     observed = session.observed()
     script = operations(observed)
     edited, rows = session.run("edited", script)
