@@ -93,16 +93,13 @@ Box box_of(const Segment& s) {
   return box;
 }
 
-/// A corner of a ring of `a` that lies inside `b`.
+/// A corner of `a` where it lies inside `b`. Outlines tell: a hole inside `b` whose outline is not,
+/// and that nothing touches, has the outline of `b` around it, inside `a`.
 std::optional<Point> corner_inside(const Shape& a, const Shape& b) {
-  const auto is_inside = [&](Point p) {
-    return b.box.contains(p) && locate(b.polygon, p) == plat::Side::kInside;
-  };
-  if (is_inside(a.polygon.outer.front())) return a.polygon.outer.front();
-  for (const Ring& hole : a.polygon.holes) {
-    if (is_inside(hole.front())) return hole.front();
-  }
-  return std::nullopt;
+  const Point corner = a.polygon.outer.front();
+  if (!b.box.contains(corner) || locate(b.polygon, corner) != plat::Side::kInside)
+    return std::nullopt;
+  return corner;
 }
 
 std::optional<Point> overlap_of(const Shape& a, const Shape& b) {

@@ -62,7 +62,7 @@ TEST(ObservedTiles, OfCambridge) {
 TEST(ObservedTiles, OfSanRomanHaveTheUseOfTheirBuildings) {
   PLAT_REAL_DATA_OR_SKIP(path, "san_roman_es/san_roman_es.gpkg");
   const ObservedTiles place = load_tiles(geodata::dataset("san_roman_es"));
-  expect_good(place, 3740, 0.99);
+  expect_good(place, 3750, 0.99);  // 3732 without finer matching
   std::map<std::string, int> zones;
   for (const tiles::Tile& tile : place.tiles.layout.tiles) ++zones[tile.zone];
   EXPECT_GT(zones["residential"], 1900);

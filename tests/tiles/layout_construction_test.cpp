@@ -130,6 +130,18 @@ TEST(LayoutConstruction, APieceInAHoleSharesItsRing) {
   EXPECT_EQ(joint_count(made.layout, made.layout.tiles[0], made.layout.tiles[1]), 4U);
 }
 
+TEST(JointSelection, ATileInAHoleKeepsTwoJointsHoweverSmall) {
+  Polygon around = rectangle(0, 0, 60, 60);
+  around.holes.push_back({{20, 20}, {20, 23}, {23, 23}, {23, 20}});
+  ConstructionOptions options;
+  options.collinear_m = 5.0;
+  const TileLayout layout =
+      construct_layout(std::vector{piece("a", around), piece("b", rectangle(20, 20, 23, 23))}, {},
+                       options)
+          .layout;
+  EXPECT_EQ(joint_count(layout, layout.tiles[0], layout.tiles[1]), 2U);
+}
+
 TEST(LayoutConstruction, TilesThatMeetInAPointShareIt) {
   const LayoutConstruction made = construct_layout(
       std::vector{piece("a", rectangle(0, 0, 20, 20)), piece("b", rectangle(20, 20, 40, 40))});
