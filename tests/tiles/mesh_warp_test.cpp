@@ -79,6 +79,13 @@ TEST(MeshWarp, ControlsThatDecideNothingAreAFailure) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(code({{{0, 0}, {1, 1}}, {{5, 5}, {kNaN, 0}}, {{9, 0}, {5, 0}}}),
             FailureCode::kOutOfRange);
+  const auto said = [](const std::vector<ControlPoint>& controls) {
+    return MeshWarp::make(controls).error().message;
+  };
+  EXPECT_EQ(said({{{0, 0}, {1, 1}}, {{5, 5}, {5, 0}}, {{9, 9}, {5, 0}}}),
+            "the control points lie on one line");
+  EXPECT_EQ(said({{{0, 0}, {1, 1}}, {{5, 5}, {kNaN, 0}}, {{9, 0}, {5, 0}}}),
+            "a control point is not finite");
   EXPECT_EQ(code(std::vector<ControlPoint>(MeshWarp::kMostControls + 1)),
             FailureCode::kTooManyVertices);
 }
