@@ -204,5 +204,31 @@ TEST(PasteTiles, LinksWithinAGroupOfSeveralBlocksComeAlong) {
       across(pasted->layout, pasted->report.appeared[0]).contains(pasted->report.appeared[1]));
 }
 
+TEST(PasteTiles, CornersOfItsOwnAreTheNeighboursTooUntilPastedBack) {
+  const auto box = [](double x) {
+    return Polygon{{{x, 0}, {x + 20, 0}, {x + 20, 30}, {x, 30}}, {}};
+  };
+  const TileLayout layout =
+      construct_layout(std::vector<TilePiece>{
+                           {"a", "", 0, box(0)}, {"b", "", 0, box(20)}, {"c", "", 0, box(40)}})
+          .layout;
+  const TileLayout bulging =
+      construct_layout(std::vector<TilePiece>{
+                           {"d", "", 0, {{{20, 0}, {40, 0}, {44, 15}, {40, 30}, {20, 30}}, {}}}})
+          .layout;
+  const auto group = copy_tiles(bulging, {{bulging.tiles[0].id}}).value();
+  auto options = paste_options();
+  options.similarity = "box";
+  options.reach_m = 0.0;
+  const auto pasted = paste_tiles(layout, group, {}, options);
+  ASSERT_TRUE(pasted) << pasted.error().message;
+  const TileId c = layout.tiles[2].id;
+  EXPECT_EQ(tile_of(pasted->layout, c).rings[0].size(), 5U);
+  const auto kept = copy_tiles(layout, {{layout.tiles[1].id}}).value();
+  const auto back = paste_tiles(pasted->layout, kept, {}, options);
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(tile_of(back->layout, c).rings[0].size(), 4U);
+}
+
 }  // namespace
 }  // namespace plat::tiles
