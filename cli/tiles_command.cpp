@@ -71,7 +71,7 @@ void add_tiles_command(CLI::App& app, Action& action) {
       "and failures; prints what Table 1 of the paper counts: streets between tiles, boundaries\n"
       "(pairs of tiles with an edge in common) and tiles.\n"
       "Exit status: 0 done, 1 finished with failures listed in the layer, 2 bad input.\n"
-      "Example: plat tiles --dataset cambridge_ma --near 231500 902500 --count 2000 --out t.gpkg");
+      "Example: plat tiles --dataset cambridge_ma --near 233000 901000 --count 2000 --out t.gpkg");
   command->add_option("--dataset", args->dataset, "a place of the catalogue (plat data list)");
   command->add_option("--parcels", args->sources.parcels, "observed parcels, FILE[:layer]");
   command->add_option("--parcel-id", args->sources.id_field, "field with the parcels' ids");

@@ -240,8 +240,7 @@ LayoutConstruction construct_layout(std::span<const TilePiece> given,
   take_refused(city);
 
   LayoutConstruction out;
-  out.layout =
-      with_joints_selected(renumbered(std::move(city.layout)), options.near_m, options.collinear_m);
+  out.layout = renumbered(std::move(city.layout));
   out.layout.links = find_street_links(out.layout, streets, options.links);
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (pieces.failures[i])
