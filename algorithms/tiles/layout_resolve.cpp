@@ -15,20 +15,6 @@
 namespace plat::tiles::detail {
 namespace {
 
-double distance_m(const Box& a, const Box& b) {
-  const double dx = std::max({0.0, a.min.x - b.max.x, b.min.x - a.max.x});
-  const double dy = std::max({0.0, a.min.y - b.max.y, b.min.y - a.max.y});
-  return std::hypot(dx, dy);
-}
-
-Box box_at(const Tile& tile, const Affine& placement) {
-  Box box;
-  for (const auto& ring : tile.rings) {
-    for (const Corner& corner : ring) box.add(placement(corner.rest));
-  }
-  return box;
-}
-
 bool is_on_map(const Box& box) {
   const auto within = [](double x) { return std::abs(x) < kGridExtent_m; };
   return box.is_empty() ||
@@ -62,14 +48,6 @@ Expected<std::vector<std::uint32_t>> indices_of(const TileLayout& layout,
   return std::vector<std::uint32_t>(out.begin(), out.end());
 }
 
-Box box_of(const TileLayout& layout, const Tile& tile) {
-  Box box;
-  for (const auto& ring : tile.rings) {
-    for (const Corner& corner : ring) box.add(layout.vertices[corner.vertex].at);
-  }
-  return box;
-}
-
 std::vector<Box> boxes_of(const TileLayout& layout, std::span<const std::uint32_t> tiles,
                           const Targets& targets) {
   std::vector<Box> out;
@@ -84,10 +62,7 @@ std::vector<Box> boxes_of(const TileLayout& layout, std::span<const std::uint32_
 Targets held_tiles(const TileLayout& layout, Targets targets, std::span<const Box> around,
                    const std::optional<double>& reach_m) {
   const auto is_reached = [&](const Tile& tile) {
-    if (!reach_m) return true;
-    const Box box = box_of(layout, tile);
-    return std::ranges::any_of(
-        around, [&](const Box& other) { return distance_m(box, other) <= *reach_m; });
+    return !reach_m || is_within_reach(box_of(layout, tile), around, *reach_m);
   };
   for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
     const Tile& tile = layout.tiles[i];

@@ -11,6 +11,7 @@
 #include "tiles/layout_solver.h"
 #include "tiles/reconfiguration.h"
 #include "tiles/tile_layout.h"
+#include "tiles/tile_reach.h"
 
 /// What all operations on a layout share: which tiles are held, solving, closing gaps, reporting.
 namespace plat::tiles::detail {
@@ -21,9 +22,6 @@ using Targets = std::map<std::uint32_t, Affine>;
 /// Indices of tiles, ascending, each once. Fails with kUnknownEntity, also where none is named.
 Expected<std::vector<std::uint32_t>> indices_of(const TileLayout& layout,
                                                 std::span<const TileId> ids);
-
-/// Where a tile is now.
-Box box_of(const TileLayout& layout, const Tile& tile);
 
 /// Boxes of tiles now, and where a target carries them: what an operation reaches from.
 std::vector<Box> boxes_of(const TileLayout& layout, std::span<const std::uint32_t> tiles,

@@ -7,6 +7,7 @@
 #include "core/box.h"
 #include "tiles/mesh_warp.h"
 #include "tiles/settling.h"
+#include "tiles/tile_reach.h"
 
 namespace plat::displacement {
 namespace {
@@ -18,28 +19,6 @@ using tiles::TileLayout;
 
 /// Controls of a warp that do not move: enough for a frame around what does, few enough to solve.
 constexpr std::size_t kMostFixedControls = 400;
-
-double distance_m(const Box& a, const Box& b) {
-  const double dx = std::max({0.0, a.min.x - b.max.x, b.min.x - a.max.x});
-  const double dy = std::max({0.0, a.min.y - b.max.y, b.min.y - a.max.y});
-  return std::hypot(dx, dy);
-}
-
-Box box_at(const Tile& tile, const Affine& placement) {
-  Box box;
-  for (const auto& ring : tile.rings) {
-    for (const Corner& corner : ring) box.add(placement(corner.rest));
-  }
-  return box;
-}
-
-Box box_now(const TileLayout& layout, const Tile& tile) {
-  Box box;
-  for (const auto& ring : tile.rings) {
-    for (const Corner& corner : ring) box.add(layout.vertices[corner.vertex].at);
-  }
-  return box;
-}
 
 std::vector<Point> rest_ring(const Tile& tile) {
   std::vector<Point> out;
@@ -138,15 +117,14 @@ void hold_beyond(const TileLayout& layout, double reach_m, Displacement& displac
   std::vector<Box> around;
   for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
     if (displacement.roles[i] != Role::kMoved) continue;
-    around.push_back(box_now(layout, layout.tiles[i]));
-    around.push_back(box_at(layout.tiles[i], displacement.targets[i]));
+    around.push_back(tiles::box_of(layout, layout.tiles[i]));
+    around.push_back(tiles::box_at(layout.tiles[i], displacement.targets[i]));
   }
   for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
     if (displacement.roles[i] != Role::kFree) continue;
-    const Box box = box_now(layout, layout.tiles[i]);
-    const bool is_near = std::ranges::any_of(
-        around, [&](const Box& other) { return distance_m(box, other) <= reach_m; });
-    if (!is_near || layout.tiles[i].is_pinned) displacement.roles[i] = Role::kHeld;
+    const Box box = tiles::box_of(layout, layout.tiles[i]);
+    if (layout.tiles[i].is_pinned || !tiles::is_within_reach(box, around, reach_m))
+      displacement.roles[i] = Role::kHeld;
   }
 }
 
