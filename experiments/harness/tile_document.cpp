@@ -8,6 +8,7 @@
 #include <set>
 
 #include "harness/layer_rows_internal.h"
+#include "tiles/layout_defects.h"
 
 namespace plat::harness {
 namespace {
@@ -20,6 +21,8 @@ using nlohmann::json;
 using tiles::Tile;
 using tiles::TileId;
 using tiles::TileLayout;
+
+constexpr std::size_t kLeastCorners = 3;
 
 std::int64_t number(std::uint32_t value) { return std::int64_t{value}; }
 std::int64_t number(bool value) { return value ? 1 : 0; }
@@ -146,7 +149,11 @@ std::vector<std::vector<tiles::Corner>> corners_of(const LayerRows& rows, const 
   } catch (const json::exception&) {
     rows.refuse(feature, "corners must be rings of [vertex, x, y]");
   }
+  if (out.empty()) rows.refuse(feature, "corners: there is no ring");
   for (const auto& ring : out) {
+    if (ring.size() < kLeastCorners)
+      rows.refuse(feature, fmt::format("corners: a ring of {}, at least {} are needed", ring.size(),
+                                       kLeastCorners));
     for (const tiles::Corner& corner : ring) {
       if (corner.vertex >= vertex_count)
         rows.refuse(feature, fmt::format("corners: there is no vertex {}", corner.vertex));
@@ -174,6 +181,9 @@ void read_tiles_layer(const LayerRows& rows, TileLayout& layout) {
     tile.placement = {
         real("xx"), real("xy"), real("yx"), real("yy"), {real("shift_x"), real("shift_y")}};
     if (!tile.placement.is_finite()) rows.refuse(feature, "its placement must be finite");
+    if (!tile.placement.inverse() || tile.placement.determinant() < 0.0)
+      rows.refuse(feature, fmt::format("its placement has the determinant {}, it must be above 0",
+                                       tile.placement.determinant()));
     tile.rings = corners_of(rows, feature, layout.vertices.size());
     layout.tiles.push_back(std::move(tile));
   }
@@ -198,6 +208,14 @@ void read_links(const LayerRows& rows, TileLayout& layout) {
   }
 }
 
+void refuse_defects(const std::string& file, const TileLayout& layout) {
+  if (layout.tiles.empty() && !layout.vertices.empty())
+    throw InputError(fmt::format("{}:tiles: no tile, and {} features in tile_vertices", file,
+                                 layout.vertices.size()));
+  if (const auto defect = tiles::find_layout_defect(layout))
+    throw InputError(fmt::format("{}:tiles: {}", file, defect->message));
+}
+
 }  // namespace
 
 std::vector<Layer> tile_document_layers(const TileLayout& layout,
@@ -215,6 +233,7 @@ TileLayout read_tile_document(const std::string& file, const geodata::LocalFrame
     read_tiles_layer(read_rows(file, "tiles", GeometryKind::kPolygon, frame), layout);
   if (has_features(file, "tile_links"))
     read_links(read_rows(file, "tile_links", GeometryKind::kPoint, frame), layout);
+  refuse_defects(file, layout);
   return layout;
 }
 

@@ -17,7 +17,8 @@ std::vector<geodata::Layer> tile_document_layers(const tiles::TileLayout& layout
                                                  const geodata::LocalFrame& frame);
 
 /// @param next_id  of the layer `document`
-/// @throws InputError with layer and feature where the layers are no layout (any more)
+/// @throws InputError with layer and feature where the layers are no layout (any more); with the
+///         tile where find_layout_defect() finds one
 tiles::TileLayout read_tile_document(const std::string& file, const geodata::LocalFrame& frame,
                                      std::uint32_t next_id);
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "core/rng.h"
 #include "geodata/layer_io.h"
@@ -59,6 +61,19 @@ class TileDocument : public ::testing::Test {
   void write(const editing::City& city) const {
     geodata::write_layers(file_, city_layers(city, testing::utm_frame()));
   }
+  /// What reading the file says against it; empty where it is a city.
+  [[nodiscard]] std::string refusal() const {
+    try {
+      static_cast<void>(read_city(file_, {}));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  [[nodiscard]] std::string refusal(const TileLayout& layout) const {
+    write(editing::make_city_of_tiles({}, layout, {}));
+    return refusal();
+  }
   [[nodiscard]] std::string bytes() const {
     std::ifstream in(file_, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -83,21 +98,58 @@ TEST_F(TileDocument, ACityWithoutTilesHasNone) {
 }
 
 TEST_F(TileDocument, WhatIsNoLayoutIsRefusedWithLayerAndFeature) {
-  const auto refusal = [&](const TileLayout& spoilt) -> std::string {
-    write(editing::make_city_of_tiles({}, spoilt, {}));
-    try {
-      static_cast<void>(read_city(file_, {}));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+  const auto expect_refused = [&](const std::string& message, const auto& spoil) {
+    TileLayout spoilt = layout();
+    spoil(spoilt);
+    EXPECT_NE(refusal(spoilt).find(message), std::string::npos) << message << "\n"
+                                                                << refusal(spoilt);
   };
-  TileLayout repeated = layout();
-  repeated.tiles[1].id = repeated.tiles[0].id;
-  EXPECT_NE(refusal(repeated).find("tiles: feature 2: its tile id comes twice"), std::string::npos);
-  TileLayout beyond = layout();
-  beyond.next_id = 9;
-  EXPECT_NE(refusal(beyond).find("tiles: feature 3: tile must be below 9"), std::string::npos);
+  expect_refused("tiles: feature 2: its tile id comes twice",
+                 [](TileLayout& made) { made.tiles[1].id = made.tiles[0].id; });
+  expect_refused("tiles: feature 3: tile must be below 9",
+                 [](TileLayout& made) { made.next_id = 9; });
+  expect_refused("tiles: feature 2: its placement has the determinant -0.2",
+                 [](TileLayout& made) { made.tiles[1].placement.yy = -0.7; });
+  expect_refused("tiles: feature 3: its placement has the determinant 0,",
+                 [](TileLayout& made) { made.tiles[2].placement = {1.0, 2.0, 1.0, 2.0, {}}; });
+  expect_refused("tiles: no tile, and 10 features in tile_vertices", [](TileLayout& made) {
+    made.tiles.clear();
+    made.links.clear();
+  });
+}
+
+TEST_F(TileDocument, TilesWithoutAnOutlineAreRefused) {
+  for (const std::string_view corners :
+       {"[]", "[[]]", "[[[0, 0, 0]]]", "[[[0, 0, 0], [1, 0, 9]]]",
+        "[[[0, 0, 0], [2, 9, 0], [3, 9, 9]], []]", "[[[0, 0, 0], [2, 9, 0], [10, 9, 9]]]"}) {
+    std::vector<geodata::Layer> layers =
+        city_layers(editing::make_city_of_tiles({}, layout(), {}), testing::utm_frame());
+    const auto tiles = std::ranges::find(layers, "tiles", &geodata::Layer::name);
+    tiles->features[1].attributes.back() = std::string(corners);
+    geodata::write_layers(file_, layers);
+    EXPECT_NE(refusal().find("tiles: feature 2: corners: "), std::string::npos) << corners;
+  }
+}
+
+TEST_F(TileDocument, TilesThatAreNoLandAreRefusedByName) {
+  TileLayout inside_out = layout();
+  std::ranges::reverse(inside_out.tiles[1].rings[0]);
+  EXPECT_NE(refusal(inside_out).find("tiles: tile 3 ("), std::string::npos);
+  TileLayout overlapping = layout();
+  overlapping.vertices[6].at.x = overlapping.vertices[7].at.x = 30.0;
+  EXPECT_NE(refusal(overlapping).find(") overlaps tile 9 ("), std::string::npos);
+  TileLayout shared = layout();
+  shared.tiles[1].block = 1;
+  EXPECT_NE(refusal(shared).find("tiles: vertex 2 is of blocks 0 and 1"), std::string::npos);
+}
+
+TEST_F(TileDocument, ACityWhoseTilesAreAllGoneIsReadBack) {
+  TileLayout none;
+  none.next_id = 12;
+  write(editing::make_city_of_tiles({}, none, {}));
+  const PlacedCity again = read_city(file_, {});
+  ASSERT_TRUE(again.city.tiles());
+  EXPECT_EQ(*again.city.tiles(), none);
 }
 
 /// Tiles of one row that share edges, 10 m wide; those from `first` on were observed `by` away.
