@@ -4,13 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
 #include "harness/config_reader_internal.h"
+#include "harness/json_file.h"
 #include "parcels/block_subdivider.h"
 
 namespace plat::harness {
@@ -334,15 +334,7 @@ std::vector<ScriptedEdit> parse_edit_script(const json& script, const std::strin
 }
 
 std::vector<ScriptedEdit> read_edit_script(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file));
-  json script;
-  try {
-    script = json::parse(in);
-  } catch (const json::exception& error) {
-    throw InputError(fmt::format("{}: is no JSON: {}", file, error.what()));
-  }
-  return parse_edit_script(script, file);
+  return parse_edit_script(read_json(file), file);
 }
 
 }  // namespace plat::harness

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
+#include "harness/json_file.h"
 #include "harness/script_json_internal.h"
 #include "similarity/shape_similarity.h"
 
@@ -281,15 +281,7 @@ ReconfigureScript parse_reconfigure_script(const nlohmann::json& value, const st
 }
 
 ReconfigureScript read_reconfigure_script(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file));
-  nlohmann::json script;
-  try {
-    script = nlohmann::json::parse(in);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: is no JSON: {}", file, error.what()));
-  }
-  return parse_reconfigure_script(script, file);
+  return parse_reconfigure_script(read_json(file), file);
 }
 
 }  // namespace plat::harness

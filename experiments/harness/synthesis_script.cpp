@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/working_grid.h"
+#include "harness/json_file.h"
 #include "harness/script_json_internal.h"
 #include "parcels/block_subdivider.h"
 #include "streets/street_grower.h"
@@ -321,15 +321,7 @@ SynthesisScript parse_synthesis_script(const nlohmann::json& value, const std::s
 }
 
 SynthesisScript read_synthesis_script(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file));
-  nlohmann::json script;
-  try {
-    script = nlohmann::json::parse(in);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: is no JSON: {}", file, error.what()));
-  }
-  return parse_synthesis_script(script, file);
+  return parse_synthesis_script(read_json(file), file);
 }
 
 }  // namespace plat::harness

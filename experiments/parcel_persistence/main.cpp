@@ -1,11 +1,9 @@
 // Which parcels keep their identity when streets are edited: README.md.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -13,10 +11,10 @@
 #include "core/progress.h"
 #include "editing/editor.h"
 #include "harness/atomic_file.h"
-#include "harness/build_info.h"
 #include "harness/city.h"
 #include "harness/config_reader_internal.h"
 #include "harness/csv.h"
+#include "harness/experiment_program.h"
 #include "parcel_persistence/persistence.h"
 #include "parcels/block_subdivider.h"
 #include "statistics/quantile.h"
@@ -313,11 +311,7 @@ std::vector<std::string> names_in(harness::ObjectReader& reader, std::string_vie
   return out;
 }
 
-Config read_config(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
-  const json object = json::parse(in, nullptr, false);
-  if (object.is_discarded()) throw InputError(file + ": is no JSON");
+Config parse_config(const json& object, const std::string& file) {
   harness::ObjectReader reader(object, file);
   static_cast<void>(reader.text("experiment", ""));
   static_cast<void>(reader.text("question", ""));
@@ -342,37 +336,26 @@ Config read_config(const std::string& file) {
   return out;
 }
 
-void run(const std::string& config_file, const std::filesystem::path& out, Jobs jobs) {
-  const Config config = read_config(config_file);
-  harness::City city = harness::load_city(geodata::dataset(config.dataset), jobs);
-  Experiment experiment(config, jobs);
+bool run(const harness::ProgramCall& call) {
+  const Config config = parse_config(call.config, call.config_file);
+  harness::City city = harness::load_city(geodata::dataset(config.dataset), call.jobs);
+  Experiment experiment(config, call.jobs);
   experiment.run(city.network);
-  std::filesystem::create_directories(out);
-  harness::write_file(out / "edits.csv", experiment.edits_csv());
-  harness::write_file(out / "summary.csv", experiment.summary_csv());
-  std::ifstream in(config_file);
-  const json manifest{{"build", harness::build_info()}, {"config", json::parse(in)}};
-  harness::write_file(out / "manifest.json", manifest.dump(2) + "\n");
+  std::filesystem::create_directories(call.out);
+  harness::write_file(call.out / "edits.csv", experiment.edits_csv());
+  harness::write_file(call.out / "summary.csv", experiment.summary_csv());
+  harness::write_manifest(call);
+  return true;
 }
 
 }  // namespace
 }  // namespace plat::persistence
 
 int main(int argc, char** argv) {
-  CLI::App app{"Which parcels keep their identity when streets are edited (README.md)"};
-  std::string config =
-      (plat::harness::experiments_folder() / "parcel_persistence" / "config.json").string();
-  std::string out;
-  plat::Jobs jobs;
-  app.add_option("--config", config, "what to run")->capture_default_str();
-  app.add_option("--out", out, "folder for edits.csv, summary.csv and manifest.json")->required();
-  app.add_option("--jobs", jobs.count, "threads, 0 = all cores; results do not depend on it");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    plat::persistence::run(config, out, jobs);
-  } catch (const plat::InputError& error) {
-    fmt::print(stderr, "parcel_persistence: {}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return plat::harness::run_program(
+      argc, argv,
+      {.name = "parcel_persistence",
+       .question = "Which parcels keep their identity when streets are edited (README.md)",
+       .trouble = "",
+       .run = plat::persistence::run});
 }

@@ -10,6 +10,7 @@
 
 #include "harness/atomic_file.h"
 #include "harness/build_info.h"
+#include "harness/json_file.h"
 #include "rcksp_scaling/scaling_experiment.h"
 #include "rcksp_scaling/scaling_tables.h"
 
@@ -23,14 +24,6 @@ struct Arguments {
   std::filesystem::path out;
   std::vector<std::string> studies;
 };
-
-json read_json(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
-  json object = json::parse(in, nullptr, false);
-  if (object.is_discarded()) throw InputError(file + ": is no JSON");
-  return object;
-}
 
 /// What /proc/cpuinfo calls the processor; empty where there is none.
 std::string processor() {
@@ -60,7 +53,7 @@ void keep_only(ScalingConfig& config, const std::vector<std::string>& studies) {
 
 /// @returns whether all strategies agreed and none crashed
 bool run(const Arguments& args) {
-  const json object = read_json(args.config);
+  const json object = harness::read_json(args.config);
   const auto& menu = sequences::sequence_searches();
   ScalingConfig config = parse_scaling_config(object, args.config, menu);
   keep_only(config, args.studies);

@@ -1,16 +1,15 @@
 // Whether regrown streets are those of the city whose points were copied: README.md.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/progress.h"
 #include "geodata/layer_io.h"
 #include "harness/atomic_file.h"
 #include "harness/build_info.h"
+#include "harness/experiment_program.h"
 #include "street_growth/growth_maps.h"
 #include "street_growth/growth_tables.h"
 
@@ -18,14 +17,6 @@ namespace plat::growth {
 namespace {
 
 using nlohmann::json;
-
-json read_json(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
-  json object = json::parse(in, nullptr, false);
-  if (object.is_discarded()) throw InputError(file + ": is no JSON");
-  return object;
-}
 
 std::vector<CityResult> know_cities(const GrowthConfig& config, Jobs jobs) {
   std::vector<CityResult> out;
@@ -88,32 +79,33 @@ void write_maps(const GrowthConfig& config, const CityResult& city,
 }
 
 /// @returns whether every cell of every city ran
-bool run(const std::string& config_file, const std::filesystem::path& out, Jobs jobs) {
-  const json object = read_json(config_file);
-  const GrowthConfig config = parse_growth_config(object, config_file, streets::street_growers());
+bool run(const harness::ProgramCall& call) {
+  const GrowthConfig config =
+      parse_growth_config(call.config, call.config_file, streets::street_growers());
+  const std::filesystem::path& out = call.out;
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<CityResult> cities = run_all(config, jobs);
-  const json build = harness::build_info();
+  const std::vector<CityResult> cities = run_all(config, call.jobs);
   std::filesystem::create_directories(out);
-  harness::write_file(out / "cells.csv",
-                      cells_csv(config, cities, build.at("commit").get<std::string>()));
+  harness::write_file(
+      out / "cells.csv",
+      cells_csv(config, cities, harness::build_info().at("commit").get<std::string>()));
   harness::write_file(out / "recovery.csv", recovery_csv(config, cities));
   harness::write_file(out / "differences.csv", differences_csv(config, cities));
   harness::write_file(out / "distances.csv", distances_csv(config, cities));
   harness::write_file(out / "scalars.csv", scalars_csv(config, cities));
-  json manifest{{"build", build}, {"config", object}};
+  json more;
   bool is_complete = true;
   for (const CityResult& city : cities) {
-    manifest["cities"].push_back(about(city));
+    more["cities"].push_back(about(city));
     is_complete = is_complete && city.city.has_value();
     if (city.city) write_maps(config, city, out);
     for (const auto& cells : city.cells) {
       for (const GrowthCell& cell : cells) is_complete = is_complete && cell.is_ok();
     }
   }
-  manifest["duration_s"] =
+  more["duration_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  harness::write_file(out / "manifest.json", manifest.dump(2) + "\n");
+  harness::write_manifest(call, more);
   return is_complete;
 }
 
@@ -121,23 +113,12 @@ bool run(const std::string& config_file, const std::filesystem::path& out, Jobs 
 }  // namespace plat::growth
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Copies a city's intersection points, regrows its streets by every strategy and ablation,\n"
-      "and compares (README.md).\n"
-      "Exit status: 0 done, 1 finished with cities skipped or cells failed, 2 bad input"};
-  std::string config =
-      (plat::harness::experiments_folder() / "street_growth" / "config.json").string();
-  std::string out;
-  plat::Jobs jobs;
-  app.add_option("--config", config, "what to run")->capture_default_str();
-  app.add_option("--out", out, "folder for the tables, maps and manifest.json")->required();
-  app.add_option("--jobs", jobs.count, "threads, 0 = all cores; results do not depend on it")
-      ->check(CLI::Range(0, 1024));
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return plat::growth::run(config, out, jobs) ? 0 : 1;
-  } catch (const plat::InputError& error) {
-    fmt::print(stderr, "street_growth: {}\n", error.what());
-    return 2;
-  }
+  return plat::harness::run_program(
+      argc, argv,
+      {.name = "street_growth",
+       .question =
+           "Copies a city's intersection points, regrows its streets by every strategy and\n"
+           "ablation, and compares (README.md).",
+       .trouble = "finished with cities skipped or cells failed",
+       .run = plat::growth::run});
 }
