@@ -126,7 +126,8 @@ Expected<Reconfiguration> cut_tiles(const TileLayout& layout, std::span<const Ti
 
 /// Puts a group down where `to` carries it: it takes the place of the most similar tile or union of
 /// tiles there, in the position and orientation that match it best, and inherits what they were
-/// joined to. Fails with kNoPlace where less than half of it would lie on tiles.
+/// joined to. Pinned tiles are not replaced. Fails with kNoPlace where less than half of it would
+/// lie on others.
 Expected<Reconfiguration> paste_tiles(const TileLayout& layout, const TileGroup& group,
                                       const Affine& to, const ReconfigurationOptions& options);
 

@@ -58,7 +58,7 @@ std::vector<Point> points_in(const Polygon& shape) {
   return out;
 }
 
-/// How many of the points lie on each tile.
+/// How many of the points lie on each tile that may be replaced: not on pinned ones.
 std::map<std::uint32_t, std::size_t> points_on(const TileLayout& layout,
                                                const std::vector<Point>& points,
                                                std::span<const TileId> kept) {
@@ -66,7 +66,8 @@ std::map<std::uint32_t, std::size_t> points_on(const TileLayout& layout,
   std::map<std::uint32_t, std::size_t> out;
   for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
     const Tile& tile = layout.tiles[i];
-    if (!box_of(layout, tile).intersects(around) || std::ranges::binary_search(kept, tile.id))
+    if (tile.is_pinned || std::ranges::binary_search(kept, tile.id) ||
+        !box_of(layout, tile).intersects(around))
       continue;
     const Polygon shape = plat::tiles::shape_of(layout, tile);
     const auto count = static_cast<std::size_t>(
@@ -148,10 +149,11 @@ Expected<Destination> find_destination(const TileLayout& layout, const Piece& pi
   const double share = static_cast<double>(covered) / static_cast<double>(points.size());
   const Point center = centroid(placed);
   if (share < kOnTiles_01)
-    return fail(FailureCode::kNoPlace,
-                fmt::format("{:.0f} % of what is pasted at ({:.1f}, {:.1f}) would lie on tiles, at "
-                            "least {:.0f} % have to",
-                            100 * share, center.x, center.y, 100 * kOnTiles_01));
+    return fail(
+        FailureCode::kNoPlace,
+        fmt::format("{:.0f} % of what is pasted at ({:.1f}, {:.1f}) would lie on tiles that "
+                    "are not pinned, at least {:.0f} % have to",
+                    100 * share, center.x, center.y, 100 * kOnTiles_01));
 
   const auto prepared = measure.prepare(piece.shape);
   if (!prepared) return tl::unexpected(prepared.error());

@@ -35,8 +35,9 @@ struct Destination {
 /// of those that overlap the piece about as well as the best does, the most similar. Neighbours are
 /// merged in the order of how much of them lies under the piece, until the union is much larger
 /// than the piece.
-/// @param kept  ids of tiles that are not to be replaced, ascending
-/// Failure kNoPlace: less than half of the piece lies on tiles, or on none that can be replaced.
+/// @param kept  ids of tiles that are not to be replaced, ascending; nor are pinned ones
+/// Failure kNoPlace: less than half of the piece lies on tiles that may be replaced, or on none
+/// whose outline can be taken over.
 /// Paper: [ABVA08, Sec. 5], 1-to-many; which tiles are merged is not said there (ADR 0039).
 Expected<Destination> find_destination(const TileLayout& layout, const Piece& piece,
                                        const Affine& to,

@@ -164,6 +164,27 @@ TEST(PasteTiles, NothingIsPastedWhereNoTilesAre) {
   EXPECT_THROW((void)paste_tiles(layout, group, {}, unknown), InputError);
 }
 
+TEST(PasteTiles, PinnedTilesAreNotReplaced) {
+  TileLayout layout = made_layout({});
+  const TileId source = layout.tiles[0].id;
+  const TileId target = layout.tiles[41].id;
+  const auto group = copy_tiles(layout, {{source}}).value();
+  const Affine to = from_to(layout, source, target);
+  layout.tiles[41].is_pinned = true;
+  const auto refused = paste_tiles(layout, group, to, paste_options());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, FailureCode::kNoPlace);
+  EXPECT_NE(refused.error().message.find("not pinned"), std::string::npos);
+
+  // Where a part of the piece lies on others, those give way and the pinned one stays.
+  const auto beside =
+      paste_tiles(layout, group, Affine::translation({-8, 0}) * to, paste_options());
+  ASSERT_TRUE(beside) << beside.error().message;
+  ASSERT_TRUE(find_tile(beside->layout, target));
+  EXPECT_EQ(tile_of(beside->layout, target).placement, tile_of(layout, target).placement);
+  EXPECT_EQ(beside->report.vanished, std::vector{layout.tiles[40].id});
+}
+
 TEST(PasteTiles, ATurnedCityGivesTheTurnedResult) {
   const Affine turn = Affine::rotation(0.7, {100, 50});
   const TileLayout layout = with_pinned_corners(made_layout({}));
