@@ -54,10 +54,14 @@ struct Walk {
 /// 3. of candidates of equal cost the one found last comes first: a walk's extensions, then those
 /// that change its last sidetrack, then older ones, so that among arcs without a cost a search goes
 /// deep;  4. memory grows with the number of walks taken and the vertices they come by, not with
-/// the number of walks there are. Complexity:    O(d log d + log n) for a vertex of d arcs, once;
-/// O(log k + length) for a walk Paper:         [Epp94] Deviation:     lists are sorted where the
-/// paper has heaps: a candidate then has two children
-///                or four
+/// the number of walks there are.
+///
+/// Complexity: O(d log d + log n) for a vertex of d arcs, once; O(log k + length) for a walk
+///
+/// Paper:      [Epp94]
+///
+/// Deviation:  lists are sorted where the paper has heaps: a candidate then has two children or
+///             four
 template <WalkGraph G>
 class KShortestWalks {
  public:

@@ -55,9 +55,10 @@ enum class DistortionFrame : std::uint8_t { kCityAxes, kTileAxes };
 /// mappings for 12;  4. an outline on itself: 0 to the last bit.
 /// The correspondence is of corners; the transformation is the affine map of least squares on it,
 /// and does not mirror; there is none where the affine map was given up.
-/// Complexity: prepare O(n log n), and up to 4,096 sets of 12 corners; a pair of 4- to 8-gons 0.3
-/// to
-///             4 us, of a 12-gon and a pentagon 30 to 50 us
+///
+/// Complexity: prepare O(n log n), and up to 4,096 sets of 12 corners; a pair of 4- to 8-gons
+///             0.3 to 4 us, of a 12-gon and a pentagon 30 to 50 us
+///
 /// Paper:      [ABVA08, Sec. 5, Eq. 4 and 5]
 /// Deviation:  outlines of more than `max_corners` are simplified, holes are not looked at; a
 ///             removal that adds area counts as one that takes it; e_perimeter is relative to the

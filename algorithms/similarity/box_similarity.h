@@ -33,10 +33,15 @@ constexpr double squared_distance(const BoxCoordinates& a, const BoxCoordinates&
 /// transformation lays box on box, long side on long side, without a mirror.
 ///
 /// Guarantees: 1. d(a, b) = sqrt((w_a d log area)^2 + (w_r d log aspect)^2), a pseudometric;  2.
-/// the transformation carries the box of `a` to that of `b`. Not claimed: rotation. An acute
-/// triangle has three boxes of the same least area, and which one is taken depends on where its
-/// corners lie (oriented_box.h). Complexity: O(1) a pair Paper:      [AVB08, Sec. 3.2] Deviation:
-/// the paper weighs area and aspect ratio in a way it does not state; logarithms make
+/// the transformation carries the box of `a` to that of `b`.
+/// Not claimed: rotation. An acute triangle has three boxes of the same least area, and which one
+/// is taken depends on where its corners lie (oriented_box.h).
+///
+/// Complexity: O(1) a pair
+///
+/// Paper:      [AVB08, Sec. 3.2]
+///
+/// Deviation:  the paper weighs area and aspect ratio in a way it does not state; logarithms make
 ///             twice and half the size equally far (ADR 0032)
 class BoxSimilarity {
  public:

@@ -12,7 +12,8 @@ namespace plat::similarity {
 /// Compares shapes by zone, area, number of corners, and mean and deviation of their interior
 /// angles.
 ///
-/// Guarantees: 1. a metric where all zones are known;  2. each weight scales its entry alone.
+/// Guarantees: 1. a pseudometric where all zones are known: shapes at 0 may
+/// differ in what it does not look at;  2. each weight scales its entry alone.
 /// Complexity: O(1) a pair
 /// Paper:      [ABVA08, Sec. 5], the vector S
 /// Deviation:  the paper does not say how entries of different units are weighed: area counts by

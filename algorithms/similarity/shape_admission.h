@@ -10,9 +10,10 @@ namespace plat::similarity {
 /// Why a shape cannot be compared by anything; nullopt where it can.
 ///
 /// Failures: kNotFinite for a coordinate; kTooSmall for fewer than three vertices or no area;
-/// kNotSimple where the outer ring is clockwise. @throws LogicError for labels that are neither
-/// none nor one per edge. That rings do not cross is the caller's to know (find_ogc_defect): to
-/// look would cost more than most comparisons.
+/// kNotSimple where the outer ring is clockwise. That rings do not cross is the caller's to know
+/// (find_ogc_defect): to look would cost more than most comparisons.
+///
+/// @throws LogicError for labels that are neither none nor one per edge
 std::optional<Failure> find_shape_defect(const LabelledShape& shape);
 
 }  // namespace plat::similarity

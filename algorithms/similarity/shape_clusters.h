@@ -41,10 +41,11 @@ struct ClusterOptions {
 /// Guarantees: 1. those of weighted_k_means: none empty, the same for any number of threads;  2. a
 /// shape of unknown zone is at the zone's weight times sqrt(1/2) from every known one.
 /// Pre: at least one shape.
+///
 /// Paper:      [ABVA08, Sec. 5, Fig. 4]
+///
 /// Deviation:  a zone is a name, not a number: each is a column of its own, so that any two zones
-/// are
-///             equally far (ADR 0036)
+///             are equally far (ADR 0036)
 Clusters cluster_shapes(std::span<const LabelledShape> shapes, const ClusterOptions& options,
                         std::uint64_t seed, Jobs jobs = {});
 

@@ -38,8 +38,11 @@ class ShapeNeighbourhood {
 /// has the union;  3. no vertex is added, moved or taken away but those between cancelled
 /// edges;  4. the outer ring begins with its lexicographically first vertex: the order of the
 /// shapes does not matter. The zone is the one with the largest area among those known, the first
-/// by name if two have it. Failures: kNotSimple where the union is in pieces or touches itself in a
-/// point; kTilesOverlap where two shapes have an edge in the same direction or the rings cross.
+/// by name if two have it.
+///
+/// Failures: kNotSimple where the union is in pieces or touches itself in a point; kTilesOverlap
+/// where two shapes have an edge in the same direction or the rings cross.
+///
 /// Complexity: O(n log n)
 Expected<LabelledShape> union_of(std::span<const LabelledShape* const> shapes);
 

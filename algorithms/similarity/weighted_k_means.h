@@ -57,10 +57,11 @@ std::size_t cluster_count(std::size_t things, double percent);
 /// no row changes its cluster, or after `max_steps`.
 /// @param table    finite numbers, at least one row
 /// @param weights  one per column, finite, not negative
+///
 /// Complexity: O(steps rows clusters columns).
-/// Paper:      [ABVA08, Sec. 5], which says "weighted k-means" and nothing of seeds, empty clusters
-/// or
-///             when to stop
+///
+/// Paper:      [ABVA08, Sec. 5], which says "weighted k-means" and nothing of seeds, of empty
+///             clusters, or of when to stop
 KMeansResult weighted_k_means(const NumberTable& table, std::span<const double> weights,
                               std::size_t clusters, Rng& rng, int max_steps = 100, Jobs jobs = {});
 
