@@ -5,13 +5,6 @@
 #include <utility>
 
 namespace plat::similarity {
-namespace {
-
-bool is_nearer(const Candidate& a, const Candidate& b) {
-  return a.distance != b.distance ? a.distance < b.distance : a.shape < b.shape;
-}
-
-}  // namespace
 
 struct CandidateSearch::Query {
   AnyPreparedShape place;

@@ -48,6 +48,11 @@ struct Candidate {
   friend bool operator==(const Candidate&, const Candidate&) = default;
 };
 
+/// The order of candidates: nearest first, among equals the lower index.
+constexpr bool is_nearer(const Candidate& a, const Candidate& b) {
+  return a.distance != b.distance ? a.distance < b.distance : a.shape < b.shape;
+}
+
 /// Finds the shapes that are most like a place that may be none of them: a deformed tile, an empty
 /// lot.
 ///

@@ -15,6 +15,7 @@
 #include "core/failure.h"
 #include "core/options.h"
 #include "core/sha256.h"
+#include "similarity/matrix_rows_internal.h"
 #include "similarity/packed_bytes_internal.h"
 
 namespace plat::similarity {
@@ -22,12 +23,13 @@ namespace {
 
 using detail::Bytes;
 using detail::Packer;
+using detail::PreparedInputs;
 using detail::Unpacker;
 
 constexpr std::string_view kMagic = "platsim\n";
 constexpr std::uint32_t kByteOrder = 0x01020304;
-/// Entries that are computed again when a file is read.
-constexpr std::size_t kProbes = 32;
+/// Rows of which something is computed again when a file is read.
+constexpr std::size_t kProbedRows = 32;
 
 Sha256Digest digest_of(std::span<const std::byte> bytes) {
   Sha256 hash;
@@ -160,6 +162,15 @@ void expect_measures(Unpacker& in, const std::string& file, const MatrixInputs& 
                  inputs.pruning ? text_of(inputs.pruning->cheap) : "");
 }
 
+MatrixLayout take_layout(Unpacker& in) {
+  const auto number = in.take<std::uint32_t>();
+  for (const auto layout :
+       {MatrixLayout::kSquares, MatrixLayout::kTriangles, MatrixLayout::kNearest}) {
+    if (number == static_cast<std::uint32_t>(layout)) return layout;
+  }
+  in.refuse(fmt::format("its layout {} is none of 1, 2, 3", number));
+}
+
 std::vector<ShapeFailure> take_failures(Unpacker& in, std::uint64_t count, std::uint64_t shapes) {
   std::vector<ShapeFailure> failures;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -189,7 +200,7 @@ bool are_columns_valid(const SimilarityMatrix& matrix) {
 
 SimilarityMatrix unpacked(Unpacker& in, const std::string& file, const MatrixInputs& inputs) {
   const auto digest = in.take<Sha256Digest>();
-  const auto layout = static_cast<MatrixLayout>(in.take<std::uint32_t>());
+  const MatrixLayout layout = take_layout(in);
   const auto keep = in.take<std::uint32_t>();
   const auto shapes = in.take<std::uint64_t>();
   const auto clusters = in.take<std::uint64_t>();
@@ -219,24 +230,69 @@ SimilarityMatrix unpacked(Unpacker& in, const std::string& file, const MatrixInp
   return matrix;
 }
 
-/// Computes some rows' first entries again: a measure whose code has changed gives other numbers.
+[[noreturn]] void refuse_as_stale(const std::string& file, const std::string& why) {
+  throw InputError(fmt::format("{}: is stale: {}; compute it again", file, why));
+}
+
+bool has_entries(const SimilarityMatrix& matrix, std::uint32_t place) {
+  if (matrix.layout == MatrixLayout::kNearest)
+    return matrix.first_entry[place] < matrix.first_entry[place + 1];
+  return !detail::has_failed(matrix, place) && matrix.members[matrix.cluster_of[place]].size() > 1;
+}
+
+/// Rows with entries, evenly spread; all of them where they are few.
+std::vector<std::uint32_t> probed_rows(const SimilarityMatrix& matrix) {
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t place = 0; place < matrix.size(); ++place) {
+    if (has_entries(matrix, place)) rows.push_back(place);
+  }
+  const std::size_t count = std::min(kProbedRows, rows.size());
+  std::vector<std::uint32_t> probed(count);
+  for (std::size_t i = 0; i < count; ++i) probed[i] = rows[i * rows.size() / count];
+  return probed;
+}
+
+void expect_same_failures(const SimilarityMatrix& matrix, const PreparedInputs& prepared,
+                          const std::string& file) {
+  const bool is_same =
+      std::equal(matrix.failures.begin(), matrix.failures.end(), prepared.failures.begin(),
+                 prepared.failures.end(), [](const ShapeFailure& a, const ShapeFailure& b) {
+                   return a.shape == b.shape && a.failure.code == b.failure.code &&
+                          a.failure.message == b.failure.message;
+                 });
+  if (!is_same)
+    refuse_as_stale(file, fmt::format("its {} failures are not the {} that its measures give now",
+                                      matrix.failures.size(), prepared.failures.size()));
+}
+
+void expect_same_columns(const SimilarityMatrix& matrix, const MatrixInputs& inputs,
+                         const PreparedInputs& prepared, std::uint32_t place,
+                         const std::string& file) {
+  const auto held = std::span(matrix.columns)
+                        .subspan(matrix.first_entry[place],
+                                 matrix.first_entry[place + 1] - matrix.first_entry[place]);
+  const std::vector<std::uint32_t> columns = detail::columns_of(matrix, inputs, prepared, place);
+  if (!std::equal(held.begin(), held.end(), columns.begin(), columns.end()))
+    refuse_as_stale(file, fmt::format("{} no longer chooses those that it holds for shape {}",
+                                      inputs.pruning->cheap.name(), place));
+}
+
+/// Computes all failures and something of some rows again: a measure whose code has changed may
+/// give others.
 void expect_same_code(const SimilarityMatrix& matrix, const MatrixInputs& inputs,
-                      const std::string& file) {
-  const std::size_t step = std::max<std::size_t>(1, matrix.size() / kProbes);
-  for (std::size_t i = 0; i < matrix.size(); i += step) {
-    const auto place = static_cast<std::uint32_t>(i);
-    const std::vector<Candidate> row = matrix.nearest(place, 1);
-    if (row.empty()) continue;
-    const auto a = inputs.measure.prepare(inputs.shapes[row.front().shape]);
-    const auto b = inputs.measure.prepare(inputs.shapes[place]);
-    const bool is_same = a && b &&
-                         static_cast<float>(inputs.measure.distance(*a, *b)) ==
-                             static_cast<float>(row.front().distance);
-    if (!is_same)
-      throw InputError(
-          fmt::format("{}: is stale: {} no longer gives the distance of shapes {} and {} that it "
-                      "holds; compute it again",
-                      file, inputs.measure.name(), row.front().shape, place));
+                      const std::string& file, Jobs jobs) {
+  const PreparedInputs prepared = detail::prepare_inputs(inputs, jobs);
+  expect_same_failures(matrix, prepared, file);
+  for (const std::uint32_t place : probed_rows(matrix)) {
+    if (inputs.pruning) expect_same_columns(matrix, inputs, prepared, place, file);
+    const std::vector<Candidate> row = matrix.nearest(place, matrix.size());
+    for (const Candidate& held : {row.front(), row.back()}) {
+      const float now = detail::entry_value(matrix.layout, inputs, prepared, place, held.shape);
+      if (now != static_cast<float>(held.distance))
+        refuse_as_stale(
+            file, fmt::format("{} no longer gives the distance of shapes {} and {} that it holds",
+                              inputs.measure.name(), held.shape, place));
+    }
   }
 }
 
@@ -262,11 +318,12 @@ void write_similarity(const std::filesystem::path& path, const SimilarityMatrix&
   throw InputError(path.string() + ": cannot be written: is the folder there, writable, not full?");
 }
 
-SimilarityMatrix read_similarity(const std::filesystem::path& path, const MatrixInputs& inputs) {
+SimilarityMatrix read_similarity(const std::filesystem::path& path, const MatrixInputs& inputs,
+                                 Jobs jobs) {
   const Bytes bytes = bytes_of_file(path);
   Unpacker in = checked_contents(bytes, path.string());
   SimilarityMatrix matrix = unpacked(in, path.string(), inputs);
-  expect_same_code(matrix, inputs, path.string());
+  expect_same_code(matrix, inputs, path.string(), jobs);
   return matrix;
 }
 
@@ -280,7 +337,7 @@ LoadedSimilarity load_or_compute_similarity(const std::filesystem::path& path,
       throw InputError(
           fmt::format("{}: is there and no similarity matrix; name another file", path.string()));
     try {
-      out.matrix = read_similarity(path, inputs);
+      out.matrix = read_similarity(path, inputs, jobs);
       return out;
     } catch (const InputError& error) {
       out.why_computed = error.what();

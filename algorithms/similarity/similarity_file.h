@@ -28,12 +28,19 @@ void write_similarity(const std::filesystem::path& path, const SimilarityMatrix&
 
 /// The matrix in a file.
 ///
-/// Guarantees: 1. what is returned is what compute_matrix gives for these inputs: a file that was
-/// computed for others, is cut off, or has a changed byte is refused;  2. so is one of a measure
-/// whose code has changed, as far as 32 entries spread over the file tell, which are computed
-/// again.
+/// Guarantees: 1. a file that was computed for other inputs, is cut off, or has a changed byte is
+/// refused;  2. what write_similarity wrote is read back, every bit, as long as the code of the
+/// measures has not changed;  3. code that has changed under the same name and options is found
+/// where it shows in what is computed again: all failures; of 32 rows with entries, evenly spread
+/// (of all where there are fewer), the nearest and the farthest distance and, pruned, which shapes
+/// are kept.
+/// Not claimed: that code whose change shows in none of these is found.
+///
+/// Complexity: prepares every shape; at most 64 distances; pruned, at most 32 rows of cheap ones
+///
 /// @throws InputError saying which of these it is
-SimilarityMatrix read_similarity(const std::filesystem::path& path, const MatrixInputs& inputs);
+SimilarityMatrix read_similarity(const std::filesystem::path& path, const MatrixInputs& inputs,
+                                 Jobs jobs = {});
 
 struct LoadedSimilarity {
   SimilarityMatrix matrix;

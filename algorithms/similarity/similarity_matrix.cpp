@@ -1,21 +1,18 @@
 #include "similarity/similarity_matrix.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/failure.h"
+#include "similarity/matrix_rows_internal.h"
 
 namespace plat::similarity {
 namespace {
 
-bool has_failed(const SimilarityMatrix& matrix, std::uint32_t shape) {
-  const auto& failures = matrix.failures;
-  const auto it =
-      std::lower_bound(failures.begin(), failures.end(), shape,
-                       [](const ShapeFailure& f, std::uint32_t s) { return f.shape < s; });
-  return it != failures.end() && it->shape == shape;
-}
+using detail::columns_of;
+using detail::entry_value;
+using detail::has_failed;
+using detail::PreparedInputs;
 
 std::uint64_t triangle_offset(std::uint64_t m, std::uint64_t r, std::uint64_t c) {
   return r * m - r * (r + 1) / 2 + (c - r - 1);
@@ -51,66 +48,22 @@ std::uint64_t entries_of_cluster(MatrixLayout layout, std::uint64_t m) {
   return layout == MatrixLayout::kSquares ? m * m : m * (m - (m > 0 ? 1 : 0)) / 2;
 }
 
-bool is_nearer(const Candidate& a, const Candidate& b) {
-  return a.distance != b.distance ? a.distance < b.distance : a.shape < b.shape;
-}
-
 /// Writes what belongs to one row, and nothing else.
-struct RowWriter {
-  SimilarityMatrix& matrix;
-  const AnyShapeSimilarity& measure;
-  const PreparedShapes& prepared;
-
-  void write(std::uint32_t place, std::uint32_t candidate, std::uint64_t entry) const {
-    const auto distance =
-        static_cast<float>(measure.distance(*prepared.shapes[candidate], *prepared.shapes[place]));
-    expects(std::isfinite(distance) && distance >= 0.0F, "a distance is finite, not negative");
-    matrix.entries[entry] = distance;
+void write_row(SimilarityMatrix& matrix, const MatrixInputs& inputs, const PreparedInputs& prepared,
+               std::uint32_t place) {
+  if (matrix.layout == MatrixLayout::kNearest) {
+    std::uint64_t entry = matrix.first_entry[place];
+    for (const std::uint32_t column : columns_of(matrix, inputs, prepared, place)) {
+      matrix.columns[entry] = column;
+      matrix.entries[entry++] = entry_value(matrix.layout, inputs, prepared, place, column);
+    }
+    return;
   }
-
-  void write_row(std::uint32_t place) const {
-    if (matrix.layout == MatrixLayout::kNearest) {
-      for (std::uint64_t e = matrix.first_entry[place]; e < matrix.first_entry[place + 1]; ++e)
-        write(place, matrix.columns[e], e);
-      return;
-    }
-    for (const std::uint32_t candidate : matrix.members[matrix.cluster_of[place]]) {
-      if (candidate > place || (candidate < place && matrix.layout == MatrixLayout::kSquares))
-        write(place, candidate, *entry_of(matrix, place, candidate));
-    }
+  for (const std::uint32_t candidate : matrix.members[matrix.cluster_of[place]]) {
+    if (candidate > place || (candidate < place && matrix.layout == MatrixLayout::kSquares))
+      matrix.entries[*entry_of(matrix, place, candidate)] =
+          entry_value(matrix.layout, inputs, prepared, place, candidate);
   }
-
-  /// The members that the cheap measure finds nearest, by index.
-  void choose_columns(std::uint32_t place, const MatrixPruning& pruning,
-                      const PreparedShapes& cheap) const {
-    std::vector<Candidate> others;
-    for (const std::uint32_t i : matrix.members[matrix.cluster_of[place]]) {
-      if (i != place)
-        others.push_back({i, pruning.cheap.distance(*cheap.shapes[i], *cheap.shapes[place])});
-    }
-    if (others.size() > pruning.keep) {
-      std::nth_element(others.begin(), others.begin() + pruning.keep, others.end(), is_nearer);
-      others.resize(pruning.keep);
-    }
-    const auto row =
-        matrix.columns.begin() + static_cast<std::ptrdiff_t>(matrix.first_entry[place]);
-    std::transform(others.begin(), others.end(), row, [](const Candidate& c) { return c.shape; });
-    std::sort(row, row + static_cast<std::ptrdiff_t>(others.size()));
-  }
-};
-
-/// Failures of both measures: a shape is compared where both can prepare it.
-std::vector<ShapeFailure> joined(const std::vector<ShapeFailure>& a,
-                                 const std::vector<ShapeFailure>& b) {
-  std::vector<ShapeFailure> out = a;
-  out.insert(out.end(), b.begin(), b.end());
-  std::stable_sort(out.begin(), out.end(),
-                   [](const ShapeFailure& x, const ShapeFailure& y) { return x.shape < y.shape; });
-  out.erase(
-      std::unique(out.begin(), out.end(),
-                  [](const ShapeFailure& x, const ShapeFailure& y) { return x.shape == y.shape; }),
-      out.end());
-  return out;
 }
 
 }  // namespace
@@ -187,20 +140,14 @@ SimilarityMatrix matrix_frame(std::vector<std::uint32_t> cluster_of, std::size_t
 SimilarityMatrix compute_matrix(const MatrixInputs& inputs, Jobs jobs, Progress::Style style) {
   const auto& [shapes, clusters, measure, pruning] = inputs;
   expects(clusters.cluster_of.size() == shapes.size(), "a cluster per shape");
-  const PreparedShapes prepared = prepare_all(shapes, measure, jobs);
-  const PreparedShapes cheap =
-      pruning ? prepare_all(shapes, pruning->cheap, jobs) : PreparedShapes{};
-  SimilarityMatrix matrix = matrix_frame(clusters.cluster_of, clusters.members.size(),
-                                         joined(prepared.failures, cheap.failures),
-                                         layout_of(inputs), pruning ? pruning->keep : 0);
+  const PreparedInputs prepared = detail::prepare_inputs(inputs, jobs);
+  SimilarityMatrix matrix =
+      matrix_frame(clusters.cluster_of, clusters.members.size(), prepared.failures,
+                   layout_of(inputs), pruning ? pruning->keep : 0);
   Progress progress("similarity of shapes", shapes.size(), style);
-  const RowWriter writer{matrix, measure, prepared};
   parallel_for(shapes.size(), jobs, [&](std::size_t i) {
     const auto place = static_cast<std::uint32_t>(i);
-    if (!has_failed(matrix, place)) {
-      if (inputs.pruning) writer.choose_columns(place, *inputs.pruning, cheap);
-      writer.write_row(place);
-    }
+    if (!has_failed(matrix, place)) write_row(matrix, inputs, prepared, place);
     progress.step();
   });
   return matrix;

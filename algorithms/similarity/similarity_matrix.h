@@ -46,7 +46,9 @@ enum class EntryState {
 };
 
 /// Distances between the shapes of each cluster. The row is the place, the column is the candidate:
-/// entry (place, candidate) is measure.distance(candidate, place), rounded to a float.
+/// entry (place, candidate) is measure.distance(candidate, place), rounded to a float; of
+/// kTriangles it is distance(the larger index, the smaller one) for both, as symmetry holds up to
+/// rounding.
 ///
 /// Memory layout. A cluster's members are those that the measure can prepare, by index; r and c are
 /// the places of two of them among the m members. `entries` holds, cluster after cluster:
@@ -57,11 +59,11 @@ enum class EntryState {
 ///               index; nothing for a shape that failed.
 /// `first_entry` says where each cluster (kNearest: each shape) begins; its last is the end.
 ///
-/// Guarantees: 1. every entry is the float next to what the measure says;  2. pruned: the entries
-/// of a row are those of the `keep` members that are nearest by the cheap measure, among equals the
-/// lower index; nothing is promised of those left out;  3. no shape is dropped silently: a pair
-/// without distance says why;  4. the same bytes for any number of threads.
-/// Paper: [ABVA08, Sec. 5 and 6]
+/// Guarantees: 1. every entry is the float next to what the measure says, asked in that order;  2.
+/// pruned: the entries of a row are those of the `keep` members that are nearest by the cheap
+/// measure, among equals the lower index; nothing is promised of those left out;  3. no shape is
+/// dropped silently: a pair without distance says why;  4. the same bytes for any number of
+/// threads. Paper: [ABVA08, Sec. 5 and 6]
 struct SimilarityMatrix {
   MatrixLayout layout = MatrixLayout::kSquares;
   std::uint32_t keep = 0;                           ///< of kNearest

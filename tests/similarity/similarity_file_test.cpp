@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <span>
 
 #include "core/failure.h"
+#include "core/sha256.h"
 #include "geodata/scratch_folder.h"
 #include "made_measures.h"
+#include "made_shapes.h"
+#include "made_tiles.h"
 #include "support/property.h"
 
 namespace plat::similarity {
@@ -19,6 +24,49 @@ using testing::clusters_of_rectangles;
 using testing::made_measure;
 using testing::random_rectangles;
 using testing::rectangle;
+
+/// What has changed in the code of a measure.
+enum class CodeChange : std::uint8_t {
+  kNone,
+  kIsSymmetricUpToRounding,
+  kCostsMore,
+  kNearLotsCostMore,
+  kFarLotsComeFirst,
+  kAcceptsWhatHasNoArea,
+  kFailsWithAnotherMessage,
+};
+
+/// MadeMeasure with its code changed: its name and options are the same.
+class ChangedMeasure : public testing::MadeMeasure {
+ public:
+  explicit ChangedMeasure(const Options& options, CodeChange change = CodeChange::kNone)
+      : MadeMeasure(options), change_(change) {}
+
+  [[nodiscard]] Expected<Prepared> prepare(const LabelledShape& shape) const {
+    auto prepared = MadeMeasure::prepare(shape);
+    if (prepared) return prepared;
+    if (change_ == CodeChange::kAcceptsWhatHasNoArea) return Prepared{};
+    if (change_ == CodeChange::kFailsWithAnotherMessage) return fail(FailureCode::kTooSmall, "no");
+    return prepared;
+  }
+  [[nodiscard]] double distance(const Prepared& a, const Prepared& b) const {
+    const double distance = MadeMeasure::distance(a, b);
+    if (change_ == CodeChange::kIsSymmetricUpToRounding && a.area > b.area)
+      return static_cast<double>(std::nextafter(static_cast<float>(distance), 1e9F));
+    if (change_ == CodeChange::kCostsMore) return 1.5 * distance;
+    if (change_ == CodeChange::kNearLotsCostMore)
+      return distance < 20.0 ? 1.5 * distance : distance;
+    if (change_ == CodeChange::kFarLotsComeFirst) return distance == 0.0 ? 0.0 : 1.0 / distance;
+    return distance;
+  }
+
+ private:
+  CodeChange change_;
+};
+
+AnyShapeSimilarity changed(CodeChange change) {
+  return AnyShapeSimilarity(ChangedMeasure({}, change));
+}
 
 class SimilarityFile : public ::testing::Test {
  protected:
@@ -65,6 +113,16 @@ void expect_same(const SimilarityMatrix& a, const SimilarityMatrix& b) {
     EXPECT_EQ(a.failures[i].failure.code, b.failures[i].failure.code);
     EXPECT_EQ(a.failures[i].failure.message, b.failures[i].failure.message);
   }
+}
+
+/// The file with another number in it and the checksum that belongs to it.
+std::string with_number(std::string bytes, std::size_t at, std::uint32_t number) {
+  std::memcpy(bytes.data() + at, &number, sizeof(number));
+  Sha256 hash;
+  hash.add(std::as_bytes(std::span(bytes)).first(bytes.size() - sizeof(Sha256Digest)));
+  const Sha256Digest digest = hash.digest();
+  std::memcpy(bytes.data() + bytes.size() - digest.size(), digest.data(), digest.size());
+  return bytes;
 }
 
 TEST_F(SimilarityFile, ReadsBackWhatWasWrittenInEveryLayout) {
@@ -155,6 +213,110 @@ TEST_F(SimilarityFile, RefusesDistancesThatTheMeasureNoLongerGives) {
   for (float& entry : matrix.entries) entry *= 1.5F;  // as other code would have written it
   write_similarity(file(), matrix, wanted);
   EXPECT_NE(refusal(wanted).find("no longer gives"), std::string::npos);
+}
+
+TEST_F(SimilarityFile, ReadsBackEveryMeasureOfTheRegistryForMadeLots) {
+  Rng rng = ::plat::testing::property_rng("SimilarityFileRegistry");
+  for (int round = 0; round < ::plat::testing::iterations(6); ++round) {
+    shapes_ = ::plat::testing::made_tiles(rng, 5, 4);
+    for (int i = 0; i < 10; ++i) shapes_.push_back(::plat::testing::made_shape(rng));
+    clusters_ = Clusters{std::vector<std::uint32_t>(shapes_.size()), {{}, {}}};
+    for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+      const auto cluster = static_cast<std::uint32_t>(rng.index(2));
+      clusters_.cluster_of[i] = cluster;
+      clusters_.members[cluster].push_back(i);
+    }
+    for (const std::string& name : shape_similarities().names()) {
+      for (const bool is_pruned : {false, true}) {
+        MatrixInputs wanted{shapes_, clusters_, shape_similarities().make(name)};
+        if (is_pruned) wanted.pruning = MatrixPruning{shape_similarities().make("box"), 4};
+        const SimilarityMatrix matrix = compute_matrix(wanted);
+        write_similarity(file(), matrix, wanted);
+        ASSERT_EQ(refusal(wanted), "") << name << ", round " << round;
+        expect_same(read_similarity(file(), wanted), matrix);
+      }
+    }
+  }
+}
+
+TEST_F(SimilarityFile, ReadsBackAMeasureThatIsSymmetricUpToRounding) {
+  const MatrixInputs wanted{shapes_, clusters_, changed(CodeChange::kIsSymmetricUpToRounding)};
+  const SimilarityMatrix matrix = compute_matrix(wanted);
+  ASSERT_EQ(matrix.layout, MatrixLayout::kTriangles);
+  write_similarity(file(), matrix, wanted);
+  EXPECT_EQ(refusal(wanted), "");
+}
+
+TEST_F(SimilarityFile, FindsChangedCodeThatDoesNotShowInTheNearest) {
+  shapes_ = {rectangle(10, 10), rectangle(10, 10), rectangle(20, 10), rectangle(20, 10)};
+  clusters_ = {{0, 0, 0, 0}, {{0, 1, 2, 3}}};
+  const MatrixInputs wanted = inputs(0.0);
+  write_similarity(file(), compute_matrix(wanted), wanted);
+  EXPECT_EQ(refusal({shapes_, clusters_, changed(CodeChange::kNone)}), "");
+  EXPECT_NE(refusal({shapes_, clusters_, changed(CodeChange::kCostsMore)}).find("no longer gives"),
+            std::string::npos);
+}
+
+TEST_F(SimilarityFile, FindsChangedCodeThatShowsInTheNearestOnly) {
+  shapes_ = {rectangle(10, 10), rectangle(10, 11), rectangle(30, 30)};
+  clusters_ = {{0, 0, 0}, {{0, 1, 2}}};
+  const MatrixInputs wanted = inputs(0.0);
+  write_similarity(file(), compute_matrix(wanted), wanted);
+  EXPECT_NE(
+      refusal({shapes_, clusters_, changed(CodeChange::kNearLotsCostMore)}).find("no longer gives"),
+      std::string::npos);
+}
+
+TEST_F(SimilarityFile, FindsChangedCodeWhereMostRowsHaveNoEntries) {
+  constexpr std::uint32_t kShapes = 330;
+  constexpr std::uint32_t kPair = 7;  // 7 and 8 are together, every other shape is alone
+  shapes_.clear();
+  clusters_ = {};
+  for (std::uint32_t i = 0; i < kShapes; ++i) {
+    shapes_.push_back(rectangle(10, 10 + i));
+    if (i == kPair + 1) {
+      clusters_.cluster_of.push_back(kPair);
+      clusters_.members[kPair].push_back(i);
+    } else {
+      clusters_.cluster_of.push_back(static_cast<std::uint32_t>(clusters_.members.size()));
+      clusters_.members.push_back({i});
+    }
+  }
+  const MatrixInputs wanted = inputs(0.0);
+  write_similarity(file(), compute_matrix(wanted), wanted);
+  EXPECT_NE(refusal({shapes_, clusters_, changed(CodeChange::kCostsMore)}).find("no longer gives"),
+            std::string::npos);
+}
+
+TEST_F(SimilarityFile, FindsChangedCodeOfTheCheapMeasure) {
+  MatrixInputs wanted = inputs();
+  clusters_ = clusters_of_rectangles(shapes_, 1);
+  wanted.pruning = MatrixPruning{changed(CodeChange::kNone), 2};
+  write_similarity(file(), compute_matrix(wanted), wanted);
+  EXPECT_EQ(refusal(wanted), "");
+  wanted.pruning->cheap = changed(CodeChange::kFarLotsComeFirst);
+  EXPECT_NE(refusal(wanted).find("no longer chooses"), std::string::npos);
+}
+
+TEST_F(SimilarityFile, FindsChangedFailures) {
+  const MatrixInputs wanted = inputs(0.0);
+  write_similarity(file(), compute_matrix(wanted), wanted);
+  for (const CodeChange change :
+       {CodeChange::kAcceptsWhatHasNoArea, CodeChange::kFailsWithAnotherMessage})
+    EXPECT_NE(refusal({shapes_, clusters_, changed(change)}).find("failures"), std::string::npos);
+}
+
+TEST_F(SimilarityFile, RefusesUnknownLayouts) {
+  const MatrixInputs wanted = inputs(0.0);
+  write_similarity(file(), compute_matrix(wanted), wanted);
+  const std::string whole = read();
+  constexpr std::size_t kLayoutAt = 8 + 4 + 4 + 32;  // behind magic, version, byte order, digest
+  for (const std::uint32_t layout : {0U, 4U, 256U + 2U, 0x01000002U}) {
+    write(with_number(whole, kLayoutAt, layout));
+    EXPECT_NE(refusal(wanted).find("layout"), std::string::npos) << layout;
+  }
+  write(with_number(whole, kLayoutAt, 2));
+  EXPECT_EQ(refusal(wanted), "") << "kTriangles, as it was";
 }
 
 TEST_F(SimilarityFile, SaysWhatIsWrong) {
