@@ -37,7 +37,7 @@ std::vector<tiles::ControlPoint> controls_of(const TileLayout& layout, const Til
       fixed.push_back(tile.placement(graph.tiles[i].centroid));
     if (displacement.roles[i] != Role::kMoved) continue;
     for (const Corner& corner : tile.rings.front())
-      moved.emplace(tile.placement(corner.rest), displacement.targets[i](corner.rest));
+      moved.emplace(layout.vertices[corner.vertex].at, displacement.targets[i](corner.rest));
   }
   const std::size_t each = 1 + fixed.size() / kMostFixedControls;
   for (std::size_t i = 0; i < fixed.size(); i += each) moved.emplace(fixed[i], fixed[i]);
@@ -46,6 +46,7 @@ std::vector<tiles::ControlPoint> controls_of(const TileLayout& layout, const Til
   return out;
 }
 
+/// A picture is warped as a whole, tiles that are to stay with it.
 /// @returns the outer rings, warped; every tile's map is fitted to its own
 Expected<Outcome> warped(const TileLayout& layout, const TileGraph& graph,
                          const Displacement& displacement) {
@@ -53,20 +54,13 @@ Expected<Outcome> warped(const TileLayout& layout, const TileGraph& graph,
   if (!warp) return tl::unexpected(warp.error());
   Outcome out;
   std::vector<Affine> maps;
-  for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
-    const Tile& tile = layout.tiles[i];
-    const std::vector<Point> rest = rest_ring(tile);
+  for (const Tile& tile : layout.tiles) {
     auto& ring = out.outer.emplace_back();
-    for (const Corner& corner : tile.rings.front()) {
-      const Point now = layout.vertices[corner.vertex].at;
-      const Role role = displacement.roles[i];
-      ring.push_back(role == Role::kFree    ? (*warp)(now)
-                     : role == Role::kMoved ? displacement.targets[i](corner.rest)
-                                            : now);
-    }
-    maps.push_back(tiles::fitted_affine(rest, ring).map);
+    for (const Corner& corner : tile.rings.front())
+      ring.push_back((*warp)(layout.vertices[corner.vertex].at));
+    maps.push_back(tiles::fitted_affine(rest_ring(tile), ring).map);
   }
-  // Whatever is at one place stays at one place.
+  // Whatever is at one place stays at one place: the warp asks for no role.
   out.joint_gaps_m.assign(graph.joints.size(), 0.0);
   out.solution = tiles::measure_placements(graph, std::move(maps), {});
   return out;
@@ -97,6 +91,66 @@ Expected<Outcome> solved(const TileLayout& layout, const TileGraph& graph,
   auto solution = solver->solve(targets, displacement.targets);
   if (!solution) return tl::unexpected(solution.error());
   return placed(layout, *std::move(solution));
+}
+
+/// Of joints that touch a free tile.
+void add_gaps(const TileGraph& graph, const std::vector<Role>& roles, const Outcome& outcome,
+              Errors& out) {
+  double property = 0.0;
+  double street = 0.0;
+  for (std::size_t j = 0; j < graph.joints.size(); ++j) {
+    const tiles::Joint& joint = graph.joints[j];
+    if (roles[joint.a] != Role::kFree && roles[joint.b] != Role::kFree) continue;
+    const bool is_street = joint.kind == tiles::JointKind::kStreet;
+    (is_street ? out.street_gap_m : out.property_gap_m) += outcome.joint_gaps_m[j];
+    ++(is_street ? street : property);
+  }
+  out.gap_m = (out.property_gap_m + out.street_gap_m) / std::max(property + street, 1.0);
+  out.property_gap_m /= std::max(property, 1.0);
+  out.street_gap_m /= std::max(street, 1.0);
+}
+
+double deformation_of(const Affine& map) { return std::hypot(map.xx - map.yy, map.xy + map.yx); }
+
+void add_free_tiles(const TileLayout& layout, const std::vector<Role>& roles,
+                    const Outcome& outcome, Errors& out) {
+  for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
+    if (roles[i] != Role::kFree) continue;
+    ++out.free_tiles;
+    const double deformation = outcome.solution.deformations[i];
+    out.deformation += deformation;
+    out.largest_deformation = std::max(out.largest_deformation, deformation);
+    out.size_change += std::abs(std::log(size_of(outcome.solution.placements[i])));
+    const tiles::AffineFit fit = tiles::fitted_affine(rest_ring(layout.tiles[i]), outcome.outer[i]);
+    out.closed_deformation += deformation_of(fit.map);
+    out.non_affine_m += fit.residual_m;
+  }
+  const double count = std::max(static_cast<double>(out.free_tiles), 1.0);
+  for (double* mean :
+       {&out.deformation, &out.size_change, &out.closed_deformation, &out.non_affine_m})
+    *mean /= count;
+}
+
+/// What happens to tiles that are to stay: a warp knows none, closing gaps moves their corners.
+void add_held_tiles(const TileLayout& layout, const std::vector<Role>& roles,
+                    const Outcome& outcome, Errors& out) {
+  for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
+    if (roles[i] != Role::kHeld) continue;
+    ++out.held_tiles;
+    const Tile& tile = layout.tiles[i];
+    const std::vector<Point>& ring = outcome.outer[i];
+    out.held_deformation += deformation_of(tiles::fitted_affine(rest_ring(tile), ring).map);
+    double sum_m = 0.0;
+    for (std::size_t c = 0; c < ring.size(); ++c) {
+      const double off_m = distance(ring[c], tile.placement(tile.rings.front()[c].rest));
+      sum_m += off_m;
+      out.largest_held_off_m = std::max(out.largest_held_off_m, off_m);
+    }
+    out.held_off_m += sum_m / static_cast<double>(ring.size());
+  }
+  const double count = std::max(static_cast<double>(out.held_tiles), 1.0);
+  out.held_deformation /= count;
+  out.held_off_m /= count;
 }
 
 }  // namespace
@@ -138,33 +192,9 @@ Expected<Outcome> displaced(const TileLayout& layout, const TileGraph& graph,
 Errors errors_of(const TileLayout& layout, const TileGraph& graph, const std::vector<Role>& roles,
                  const Outcome& outcome) {
   Errors out;
-  double property = 0.0;
-  double street = 0.0;
-  for (std::size_t j = 0; j < graph.joints.size(); ++j) {
-    const tiles::Joint& joint = graph.joints[j];
-    if (roles[joint.a] != Role::kFree && roles[joint.b] != Role::kFree) continue;
-    const bool is_street = joint.kind == tiles::JointKind::kStreet;
-    (is_street ? out.street_gap_m : out.property_gap_m) += outcome.joint_gaps_m[j];
-    ++(is_street ? street : property);
-  }
-  out.gap_m = (out.property_gap_m + out.street_gap_m) / std::max(property + street, 1.0);
-  out.property_gap_m /= std::max(property, 1.0);
-  out.street_gap_m /= std::max(street, 1.0);
-  for (std::size_t i = 0; i < layout.tiles.size(); ++i) {
-    if (roles[i] != Role::kFree) continue;
-    ++out.free_tiles;
-    const double deformation = outcome.solution.deformations[i];
-    out.deformation += deformation;
-    out.largest_deformation = std::max(out.largest_deformation, deformation);
-    out.size_change += std::abs(std::log(size_of(outcome.solution.placements[i])));
-    const tiles::AffineFit fit = tiles::fitted_affine(rest_ring(layout.tiles[i]), outcome.outer[i]);
-    out.closed_deformation += std::hypot(fit.map.xx - fit.map.yy, fit.map.xy + fit.map.yx);
-    out.non_affine_m += fit.residual_m;
-  }
-  const double count = std::max(static_cast<double>(out.free_tiles), 1.0);
-  for (double* mean :
-       {&out.deformation, &out.size_change, &out.closed_deformation, &out.non_affine_m})
-    *mean /= count;
+  add_gaps(graph, roles, outcome, out);
+  add_free_tiles(layout, roles, outcome, out);
+  add_held_tiles(layout, roles, outcome, out);
   return out;
 }
 

@@ -50,14 +50,15 @@ void hold_beyond(const tiles::TileLayout& layout, double reach_m, Displacement& 
 struct Outcome {
   tiles::LayoutSolution solution;         ///< of a warp: the affine maps nearest to it
   std::vector<std::vector<Point>> outer;  ///< per tile: its outer ring, gaps closed
-  std::vector<double> joint_gaps_m;       ///< per joint, before gaps are closed; a warp has none
+  /// Per joint, before gaps are closed. A warp has none: it carries all tiles, held ones too.
+  std::vector<double> joint_gaps_m;
 };
 
 /// Failures: those of LayoutSolver and MeshWarp.
 Expected<Outcome> displaced(const tiles::TileLayout& layout, const tiles::TileGraph& graph,
                             const Displacement& displacement, const Way& way);
 
-/// Of the free tiles, and of joints that touch one.
+/// Of the free tiles, of joints that touch one, and of the tiles that are to stay.
 struct Errors {
   std::size_t free_tiles = 0;
   double property_gap_m = 0.0;  ///< mean over joints
@@ -68,6 +69,10 @@ struct Errors {
   double size_change = 0.0;         ///< mean of |log size|, the size a length
   double closed_deformation = 0.0;  ///< of the maps nearest to the tiles once gaps are closed
   double non_affine_m = 0.0;        ///< root mean square of what those maps leave, mean over tiles
+  std::size_t held_tiles = 0;       ///< tiles that are to stay; moved ones are not among them
+  double held_deformation = 0.0;    ///< as closed_deformation, of these
+  double held_off_m = 0.0;  ///< distance of their corners from where they belong, mean over tiles
+  double largest_held_off_m = 0.0;  ///< of any corner
 };
 
 Errors errors_of(const tiles::TileLayout& layout, const tiles::TileGraph& graph,

@@ -174,6 +174,9 @@ const std::vector<Measure>& measures() {
       {"size_change", "", [](const R& r) { return r.errors.size_change; }},
       {"closed_deformation", "", [](const R& r) { return r.errors.closed_deformation; }},
       {"non_affine_m", "m", [](const R& r) { return r.errors.non_affine_m; }},
+      {"held_deformation", "", [](const R& r) { return r.errors.held_deformation; }},
+      {"held_off_m", "m", [](const R& r) { return r.errors.held_off_m; }},
+      {"largest_held_off_m", "m", [](const R& r) { return r.errors.largest_held_off_m; }},
       {"objective", "m2", [](const R& r) { return r.objective; }},
       {"replacements", "", [](const R& r) { return static_cast<double>(r.replacements); }}};
   return kMeasures;

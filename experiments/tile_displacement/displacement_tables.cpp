@@ -57,13 +57,15 @@ statistics::Interval interval_of(const std::vector<double>& values,
 }  // namespace
 
 std::string displacements_csv(const DisplacementConfig& config, const DisplacementResult& result) {
-  std::string header = "dataset,group,displacement_m,way,similarity,status,moved_tiles,free_tiles";
+  std::string header =
+      "dataset,group,displacement_m,way,similarity,status,moved_tiles,free_tiles,held_tiles";
   for (const Measure& measure : measures()) header += "," + std::string(measure.name);
   CsvTable table(header + ",replacements_refused,rounds");
   for (const DisplacementRow& row : result.rows) {
-    std::string text = fmt::format("{},{},{},{},{},{},{},{}", config.cities[row.city].dataset,
-                                   row.group, row.displacement_m, row.way, row.similarity,
-                                   row.status, row.moved_tiles, row.errors.free_tiles);
+    std::string text =
+        fmt::format("{},{},{},{},{},{},{},{},{}", config.cities[row.city].dataset, row.group,
+                    row.displacement_m, row.way, row.similarity, row.status, row.moved_tiles,
+                    row.errors.free_tiles, row.errors.held_tiles);
     for (const Measure& measure : measures())
       text += row.status == "ok" ? fmt::format(",{}", measure.of(row)) : ",";
     table.add_raw_row(fmt::format("{},{},{}", text, row.replacements_refused, row.rounds));

@@ -13,7 +13,8 @@ import matplotlib.pyplot as plt
 import pandas
 
 COLOURS = ["#1b6ca8", "#2a9d5c", "#d1495b", "#8a5ab5", "#e08e1b", "#444444", "#7fb7be"]
-MEASURES = ["gap_m", "property_gap_m", "street_gap_m", "deformation", "closed_deformation", "size_change", "non_affine_m"]
+MEASURES = ["gap_m", "property_gap_m", "street_gap_m", "deformation", "closed_deformation", "size_change", "non_affine_m",
+            "held_off_m"]
 
 
 def title(measure, unit):

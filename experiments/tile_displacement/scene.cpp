@@ -166,7 +166,11 @@ json json_of(const Errors& errors) {
           {"largest_deformation", errors.largest_deformation},
           {"size_change", errors.size_change},
           {"closed_deformation", errors.closed_deformation},
-          {"non_affine_m", errors.non_affine_m}};
+          {"non_affine_m", errors.non_affine_m},
+          {"held_tiles", errors.held_tiles},
+          {"held_deformation", errors.held_deformation},
+          {"held_off_m", errors.held_off_m},
+          {"largest_held_off_m", errors.largest_held_off_m}};
 }
 
 }  // namespace

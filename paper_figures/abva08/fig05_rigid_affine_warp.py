@@ -30,11 +30,12 @@ SCENE = {
 MOST_DEFORMATION = 0.3
 
 
-def draw_tiles(axes, tiles, bounds, colours):
+def draw_tiles(axes, tiles, bounds, colours, held_stay=True):
     open_map(axes, bounds)
     faces = numpy.array(colours(Normalize(0, MOST_DEFORMATION)(tiles["deformation"].clip(upper=MOST_DEFORMATION))))
     faces[:, 3] = 0.85
-    faces[(tiles["role"] == "held").to_numpy()] = (0.93, 0.93, 0.91, 1.0)
+    if held_stay:
+        faces[(tiles["role"] == "held").to_numpy()] = (0.93, 0.93, 0.91, 1.0)
     fill(axes, tiles, faces, INK, 0.35)
     fill(axes, tiles[tiles["role"] == "moved"], "none", "#1b4fa8", 1.1)
 
@@ -48,14 +49,15 @@ def draw(figure):
     draw_tiles(a, observed, bounds, colours)
     letter(a, "a", f"{len(observed)} tiles; blue: to be dragged")
     for axes, key, way, name in ((b, "b", "rigid", "rigid"), (c, "c", "affine", "mild affine"), (d, "d", "warp", "plain warp")):
-        draw_tiles(axes, shown.tiles(way), bounds, colours)
+        draw_tiles(axes, shown.tiles(way), bounds, colours, held_stay=way != "warp")
         errors = shown.errors(way)
         letter(axes, key, f"{name}: gap {errors['gap_m']:.2f} m, deformation {errors['deformation']:.3f}")
     bar = picture.colorbar(ScalarMappable(Normalize(0, MOST_DEFORMATION), colours), ax=[a, b, c, d], shrink=0.6, aspect=30,
                            pad=0.01, extend="max")
     bar.set_label("deformation of a tile (difference of singular values)")
     rigid, affine, warp = (shown.errors(w) for w in ("rigid", "affine", "warp"))
-    caption(picture, figure, "Numbers: means over the tiles that make room and over their joints. Grey: held.")
+    caption(picture, figure, "Numbers: means over the tiles that make room and over their joints. Grey: held. "
+            "In (d) nothing is held: the warp bends what is to stay, too.")
     figure.save(picture)
     note = f"property {rigid['property_gap_m']:.2f} to {affine['property_gap_m']:.2f} m, street " \
            f"{rigid['street_gap_m']:.2f} to {affine['street_gap_m']:.2f} m; {affine['free_tiles']} tiles"
@@ -66,7 +68,9 @@ def draw(figure):
     figure.measured("warp_deforms", warp["closed_deformation"] / affine["closed_deformation"],
                     f"{warp['closed_deformation']:.3f} and {affine['closed_deformation']:.3f} (rigid "
                     f"{rigid['closed_deformation']:.3f}); left over after the nearest affine maps {warp['non_affine_m']:.2f} and "
-                    f"{affine['non_affine_m']:.2f} m")
+                    f"{affine['non_affine_m']:.2f} m; tiles that are to stay leave their place by up to "
+                    f"{warp['largest_held_off_m']:.2f} and {affine['largest_held_off_m']:.2f} m, on the mean by "
+                    f"{warp['held_off_m']:.3f} and {affine['held_off_m']:.3f} m")
 
 
 if __name__ == "__main__":
