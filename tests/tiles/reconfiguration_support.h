@@ -1,11 +1,17 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <map>
 #include <numeric>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "parcels/coverage.h"
 #include "support/made_tile_layout.h"
 #include "tiles/layout_defects.h"
 #include "tiles/reconfiguration.h"
@@ -49,6 +55,40 @@ inline std::size_t parts_of(const TileLayout& layout) {
   std::vector<bool> is_root(root.size(), false);
   for (std::size_t t = 0; t < layout.tiles.size(); ++t) is_root[find(t)] = true;
   return static_cast<std::size_t>(std::ranges::count(is_root, true));
+}
+
+/// Whether the tiles of every block cover one piece of land without a hole in it, each point once;
+/// else what is wrong.
+inline std::string coverage_defect_of(const TileLayout& layout) {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::map<std::uint32_t, std::vector<const tiles::Tile*>> blocks;
+  for (const tiles::Tile& tile : layout.tiles) blocks[tile.block].push_back(&tile);
+  for (const auto& [block, members] : blocks) {
+    std::set<Edge> edges;
+    std::vector<parcels::Parcel> parcels;
+    for (const tiles::Tile* tile : members) {
+      parcels.push_back({{tile->id.value}, tiles::shape_of(layout, *tile)});
+      for (const auto& ring : tile->rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i)
+          edges.emplace(ring[i].vertex, ring[(i + 1) % ring.size()].vertex);
+      }
+    }
+    std::map<std::uint32_t, std::uint32_t> next;
+    for (const auto& [from, to] : edges) {
+      if (!edges.contains({to, from}) && !next.emplace(from, to).second)
+        return fmt::format("block {} touches itself", block);
+    }
+    Polygon land;
+    std::uint32_t at = next.begin()->first;
+    do {
+      land.outer.push_back(layout.vertices[at].at);
+      at = next.at(at);
+    } while (at != next.begin()->first);
+    if (land.outer.size() != next.size()) return fmt::format("block {} has a hole", block);
+    if (const auto defect = parcels::find_coverage_defect(land, parcels, 0.0))
+      return fmt::format("block {}: {}", block, defect->message);
+  }
+  return "";
 }
 
 /// The objective, by nothing that the operations use.

@@ -114,6 +114,7 @@ TEST(CutTiles, ClosingLandKeepsTheCityConnected) {
     }
     ++done;
     EXPECT_EQ(defect_of(cut->layout), "");
+    EXPECT_EQ(coverage_defect_of(cut->layout), "");
     EXPECT_EQ(parts_of(cut->layout), 1U);
     EXPECT_EQ(cut->layout.tiles.size() + 1, layout.tiles.size());
   }

@@ -164,6 +164,28 @@ TEST(PasteTiles, NothingIsPastedWhereNoTilesAre) {
   EXPECT_THROW((void)paste_tiles(layout, group, {}, unknown), InputError);
 }
 
+TEST(PasteTiles, TilesAndVacantLandStayACoverage) {
+  const TileLayout layout = made_layout({});
+  ASSERT_EQ(coverage_defect_of(layout), "");
+  int pasted = 0;
+  for (std::size_t i = 0; i + 3 < layout.tiles.size(); i += 9) {
+    const std::vector<TileId> source{layout.tiles[i].id, layout.tiles[i + 1].id};
+    const auto group = copy_tiles(layout, source).value();
+    // A middle piece of the row is taken away, its land stays; the group comes beside it.
+    const auto cut =
+        cut_tiles(layout, {{layout.tiles[38].id}}, VacatedLand::kVacant, paste_options());
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(coverage_defect_of(cut->layout), "");
+    const auto result = paste_tiles(
+        cut->layout, group, from_to(layout, source[0], layout.tiles[39].id), paste_options());
+    if (!result) continue;
+    ++pasted;
+    EXPECT_EQ(coverage_defect_of(result->layout), "") << "tile " << i;
+    EXPECT_NE(result->layout.tiles.size(), 0U);
+  }
+  EXPECT_GE(pasted, 4);
+}
+
 TEST(PasteTiles, PinnedTilesAreNotReplaced) {
   TileLayout layout = made_layout({});
   const TileId source = layout.tiles[0].id;
