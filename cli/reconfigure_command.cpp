@@ -39,9 +39,10 @@ void print_step(std::size_t number, const harness::ReconfigureStep& step,
   if (const auto& tiles = report.edit.tiles) {
     fmt::print(" {} moved, {} new, {} gone;", tiles->moved.size(), tiles->appeared.size(),
                tiles->vanished.size());
-    if (tiles->replacements + tiles->replacements_refused > 0) {
-      fmt::print(" {} replaced, {} tried in vain, {} rounds;", tiles->replacements,
-                 tiles->replacements_refused, tiles->rounds);
+    if (tiles->replacements + tiles->replacements_refused + tiles->replacements_without_place > 0) {
+      fmt::print(" {} replaced, {} tried in vain, {} without place, {} rounds;",
+                 tiles->replacements, tiles->replacements_refused,
+                 tiles->replacements_without_place, tiles->rounds);
     }
     fmt::print(
         " mean gap {:.3f} -> {:.3f} m, across streets {:.3f} -> {:.3f} m, deformation {:.4f} -> "

@@ -68,9 +68,10 @@ struct ReconfigurationReport {
   std::vector<TileId> appeared;  ///< pasted and replacing tiles
   std::vector<TileId> vanished;  ///< cut and replaced tiles
   std::size_t replacements = 0;
-  std::size_t replacements_refused = 0;  ///< tried, and the total error did not fall
-  std::size_t rounds = 0;                ///< of solving
-  double mean_property_gap_m = 0.0;      ///< before gaps are closed
+  std::size_t replacements_refused = 0;  ///< the total error did not fall, or others overlapped
+  std::size_t replacements_without_place = 0;  ///< could not be laid there, or not be solved
+  std::size_t rounds = 0;                      ///< of solving
+  double mean_property_gap_m = 0.0;            ///< before gaps are closed
   double mean_street_gap_m = 0.0;
   double mean_deformation = 0.0;
   double largest_deformation = 0.0;

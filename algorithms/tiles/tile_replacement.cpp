@@ -102,6 +102,23 @@ similarity::ShapeComparison Candidates::compare(std::uint32_t candidate,
   return measure_.compare(*a, *b);
 }
 
+/// Tiles turned inside out, with nothing, and pairs that overlap, by ids.
+using Defects = std::set<std::pair<TileId, std::optional<TileId>>>;
+
+Defects defects_of(const TileLayout& layout) {
+  Defects out;
+  for (const TileDefect& defect : find_tile_defects(layout)) {
+    TileId first = layout.tiles[defect.tile].id;
+    std::optional<TileId> second;
+    if (defect.other) {
+      second = std::max(first, layout.tiles[*defect.other].id);
+      first = std::min(first, layout.tiles[*defect.other].id);
+    }
+    out.emplace(first, second);
+  }
+  return out;
+}
+
 using HeldById = std::map<TileId, Affine>;
 
 Targets by_index(const TileLayout& layout, const HeldById& held) {
@@ -112,6 +129,20 @@ Targets by_index(const TileLayout& layout, const HeldById& held) {
   }
   return out;
 }
+
+/// Tiles to be replaced, as they stand.
+struct Hole {
+  std::vector<std::uint32_t> replaced;  ///< ascending
+  similarity::LabelledShape place;      ///< their outline
+  double error_within = 0.0;            ///< that vanishes with them
+};
+
+/// What became of a candidate.
+enum class Trial {
+  kReplaced,
+  kRefused,  ///< the total error did not fall, or something new overlaps
+  kNoPlace,  ///< it could not be laid there, or not solved
+};
 
 class Rounds {
  public:
@@ -125,7 +156,7 @@ class Rounds {
         report_(report) {
     for (const auto& [tile, target] : held) held_.emplace(now_.layout.tiles[tile].id, target);
     now_.layout = settled(std::move(now_.layout));
-    defects_ = find_tile_defects(now_.layout).size();
+    defects_ = defects_of(now_.layout);
   }
 
   void run();
@@ -135,17 +166,18 @@ class Rounds {
   [[nodiscard]] std::vector<TileId> over_thresholds() const;
   bool replace(TileId id);
   bool put_in_place(const std::vector<std::uint32_t>& replaced);
-  bool try_candidate(std::uint32_t candidate, const std::vector<std::uint32_t>& replaced,
-                     const similarity::LabelledShape& place);
+  Trial try_candidate(std::uint32_t candidate, const Hole& hole);
   [[nodiscard]] double error_within(const std::vector<std::uint32_t>& tiles) const;
   bool solve_all();
+  /// The outcome, settled, is the layout from now on, unless it has a defect that it had not.
+  bool accept(SolvedLayout outcome);
 
   SolvedLayout now_;
   const ReplacementOptions& replacement_;
   const ReconfigurationOptions& options_;
   Candidates candidates_;
   HeldById held_;
-  std::size_t defects_ = 0;
+  Defects defects_;
   ReconfigurationReport& report_;
 };
 
@@ -207,43 +239,54 @@ double Rounds::error_within(const std::vector<std::uint32_t>& tiles) const {
   return measure_placements(part, std::move(placements), options_.solver).objective - largest;
 }
 
+bool Rounds::accept(SolvedLayout outcome) {
+  outcome.layout = settled(std::move(outcome.layout));
+  Defects defects = defects_of(outcome.layout);
+  if (!std::ranges::includes(defects_, defects)) return false;
+  defects_ = std::move(defects);
+  now_ = std::move(outcome);
+  return true;
+}
+
 /// Puts a candidate there if the total error then falls and nothing new overlaps.
-bool Rounds::try_candidate(std::uint32_t candidate, const std::vector<std::uint32_t>& replaced,
-                           const similarity::LabelledShape& place) {
+Trial Rounds::try_candidate(std::uint32_t candidate, const Hole& hole) {
   auto trial = substituted(now_.layout, {.piece = &candidates_.tile(candidate),
-                                         .replaced = replaced,
-                                         .comparison = candidates_.compare(candidate, place),
+                                         .replaced = hole.replaced,
+                                         .comparison = candidates_.compare(candidate, hole.place),
                                          .as_placed = {},
                                          .unmet = UnmetVertices::kKept});
-  if (!trial) return false;
-  const auto around = boxes_of(now_.layout, replaced, {});
+  if (!trial) return Trial::kNoPlace;
+  const auto around = boxes_of(now_.layout, hole.replaced, {});
   const Targets held = held_or_farthest(
       trial->layout,
       held_tiles(trial->layout, by_index(trial->layout, held_), around, kTrialReach_m), around);
   auto outcome = solved(std::move(trial->layout), held, options_.solver);
-  if (!outcome) return false;
-  const double before = now_.solution.objective - error_within(replaced);
-  if (outcome->solution.objective >= before * (1.0 - kFalls_01)) return false;
-  outcome->layout = settled(std::move(outcome->layout));
-  const std::size_t defects = find_tile_defects(outcome->layout).size();
-  if (defects > defects_) return false;
-  defects_ = defects;
-  now_ = *std::move(outcome);
-  return true;
+  if (!outcome) return Trial::kNoPlace;
+  const double before = now_.solution.objective - hole.error_within;
+  if (outcome->solution.objective >= before * (1.0 - kFalls_01)) return Trial::kRefused;
+  return accept(*std::move(outcome)) ? Trial::kReplaced : Trial::kRefused;
 }
 
 bool Rounds::put_in_place(const std::vector<std::uint32_t>& replaced) {
   const auto outline = outline_of(now_.layout, replaced);
   if (!outline) return false;
   const Tile& first = now_.layout.tiles[replaced.front()];
-  const auto place = shape_of(now_.layout, *outline, edges_of_block(now_.layout, first.block));
+  const Hole hole{replaced,
+                  shape_of(now_.layout, *outline, edges_of_block(now_.layout, first.block)),
+                  error_within(replaced)};
   for (const std::uint32_t candidate :
-       candidates_.most_similar(place, replacement_.candidates, first.id)) {
-    if (try_candidate(candidate, replaced, place)) {
-      ++report_.replacements;
-      return true;
+       candidates_.most_similar(hole.place, replacement_.candidates, first.id)) {
+    switch (try_candidate(candidate, hole)) {
+      case Trial::kReplaced:
+        ++report_.replacements;
+        return true;
+      case Trial::kRefused:
+        ++report_.replacements_refused;
+        break;
+      case Trial::kNoPlace:
+        ++report_.replacements_without_place;
+        break;
     }
-    ++report_.replacements_refused;
   }
   return false;
 }
@@ -273,12 +316,7 @@ bool Rounds::replace(TileId id) {
 bool Rounds::solve_all() {
   auto outcome = solved(now_.layout, by_index(now_.layout, held_), options_.solver);
   if (!outcome || outcome->solution.objective > now_.solution.objective) return false;
-  outcome->layout = settled(std::move(outcome->layout));
-  const std::size_t defects = find_tile_defects(outcome->layout).size();
-  if (defects > defects_) return false;
-  defects_ = defects;
-  now_ = *std::move(outcome);
-  return true;
+  return accept(*std::move(outcome));
 }
 
 void Rounds::run() {

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "tiles/reconfiguration_support.h"
+#include "tiles/settling.h"
+#include "tiles/tile_replacement_internal.h"
 
 namespace plat::tiles {
 namespace {
@@ -48,9 +51,8 @@ TEST(Replacement, EveryJointIsStillCounted) {
   const auto replaced = replace_deformed_tiles(plain->layout, *replacing().replacement, without);
   ASSERT_TRUE(replaced) << replaced.error().message;
   ASSERT_GT(replaced->report.replacements, 0U);
-  if (replaced->report.appeared.size() == replaced->report.vanished.size()) {
-    EXPECT_GE(graph_of(replaced->layout).joints.size(), graph_of(plain->layout).joints.size());
-  }
+  ASSERT_EQ(replaced->report.appeared.size(), replaced->report.vanished.size());
+  EXPECT_GE(graph_of(replaced->layout).joints.size(), graph_of(plain->layout).joints.size());
   EXPECT_LT(objective_of(replaced->layout, without.solver),
             objective_of(plain->layout, without.solver));
 }
@@ -67,10 +69,70 @@ TEST(Replacement, ReplacingTilesAreOfTheSameZone) {
     for (const TileId id : ids) ++out[tile_of(layout, id).zone];
     return out;
   };
-  if (replaced->report.appeared.size() == replaced->report.vanished.size()) {
-    EXPECT_EQ(count(replaced->layout, replaced->report.appeared),
-              count(before, replaced->report.vanished));
+  ASSERT_EQ(replaced->report.appeared.size(), replaced->report.vanished.size());
+  EXPECT_EQ(count(replaced->layout, replaced->report.appeared),
+            count(before, replaced->report.vanished));
+}
+
+/// Pairs that overlap, the first alone where a tile is turned inside out.
+std::set<std::pair<TileId, std::optional<TileId>>> defects_of(const TileLayout& layout) {
+  std::set<std::pair<TileId, std::optional<TileId>>> out;
+  for (const TileDefect& defect : find_tile_defects(layout)) {
+    const TileId tile = layout.tiles[defect.tile].id;
+    if (!defect.other) {
+      out.emplace(tile, std::nullopt);
+      continue;
+    }
+    const TileId other = layout.tiles[*defect.other].id;
+    out.emplace(std::min(tile, other), std::max(tile, other));
   }
+  return out;
+}
+
+TEST(Replacement, NoOverlapIsTradedForAnother) {
+  int overlapping = 0;
+  int replaced = 0;
+  for (std::uint64_t seed = 6; seed <= 9; ++seed) {
+    TileLayout layout =
+        with_pinned_corners(made_layout({.blocks_x = 2, .blocks_y = 2, .seed = seed}));
+    auto options = replacing();
+    detail::Targets held = detail::held_tiles(layout, {}, {}, std::nullopt);
+    held.insert_or_assign(13, Affine::translation({-10, 26}));
+    held.insert_or_assign(15, Affine::translation({-20, 0}));
+    auto start = detail::solved(layout, held, options.solver);
+    ASSERT_TRUE(start);
+    const auto before = defects_of(settled(start->layout));
+    if (before.empty()) continue;
+    ++overlapping;
+    ReconfigurationReport report;
+    const auto after =
+        detail::with_replacements(layout, *start, held, *options.replacement, options, report);
+    if (report.replacements > 0) ++replaced;
+    EXPECT_TRUE(std::ranges::includes(before, defects_of(after.layout))) << "seed " << seed;
+  }
+  EXPECT_GT(overlapping, 1);
+  EXPECT_GT(replaced, 1);
+}
+
+TEST(Replacement, WhatCannotBeLaidThereIsCountedApart) {
+  const auto box = [](double x, double y, double width, double height) {
+    return Ring{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
+  };
+  std::vector<TilePiece> pieces;
+  for (Ring ring : {box(0, 0, 20, 40), box(20, 0, 40, 40), box(60, 0, 20, 40), box(80, 0, 20, 40),
+                    box(30, 10, 20, 20)})
+    pieces.push_back({"", "", 0, {std::move(ring), {}}});
+  Ring hole = box(30, 10, 20, 20);
+  std::ranges::reverse(hole);
+  pieces[1].shape.holes.push_back(hole);
+  TileLayout layout = construct_layout(pieces).layout;
+  ASSERT_EQ(layout.tiles.size(), 5U);
+  layout.tiles[0].is_pinned = true;
+  // The third tile and the second, which surrounds the fifth, cannot give way together.
+  const auto result =
+      move_tiles(layout, {{layout.tiles[3].id}}, Affine::translation({14, 0}), replacing());
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_GT(result->report.replacements_without_place, 0U);
 }
 
 TEST(Replacement, NothingOverTheThresholdsNothingReplaced) {
