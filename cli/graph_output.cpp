@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/failure.h"
-#include "harness/atomic_file.h"
 #include "sequences/intermediate_graph_trace.h"
 
 namespace plat::cli {
@@ -52,7 +52,7 @@ void write_graph(const CompiledProblem& compiled, const SequenceProblem& problem
     out["arcs"].push_back({{"from", arc.from},
                            {"to", arc.to},
                            {"cost", static_cast<double>(arc.cost) * problem.database.cost_step}});
-  harness::write_file(file, out.dump(1) + "\n");
+  write_file(file, out.dump(1) + "\n");
 }
 
 }  // namespace plat::cli

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "core/atomic_file.h"
 #include "geodata/layer_io.h"
-#include "harness/atomic_file.h"
 #include "harness/network_report.h"
 #include "streets/network_cleaning.h"
 #include "streets/street_import.h"
@@ -54,7 +54,7 @@ ExitStatus run(const Arguments& args) {
   }
   Rng rng(derive_seed(args.seed, {seed_key("measures")}));
   const streets::NetworkMeasures measures = streets::measure_network(clean.network, options, rng);
-  harness::write_file(args.out, harness::network_report(measures, layer.frame).dump(1) + "\n");
+  write_file(args.out, harness::network_report(measures, layer.frame).dump(1) + "\n");
   for (const streets::NetworkScalar& scalar : streets::network_scalars()) {
     const std::optional<double> value = scalar.value(measures);
     fmt::print("{:34} {} {}\n", scalar.name, value ? fmt::format("{:.6g}", *value) : "none",

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/atomic_file.h"
 #include "core/failure.h"
 #include "core/options.h"
 #include "core/sha256.h"
@@ -301,21 +302,7 @@ void expect_same_code(const SimilarityMatrix& matrix, const MatrixInputs& inputs
 void write_similarity(const std::filesystem::path& path, const SimilarityMatrix& matrix,
                       const MatrixInputs& inputs) {
   const Bytes bytes = packed(matrix, inputs);
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  std::error_code error;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    out.flush();
-    if (!out) error = std::make_error_code(std::errc::io_error);
-  }
-  if (!error) std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw InputError(path.string() + ": cannot be written: is the folder there, writable, not full?");
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 SimilarityMatrix read_similarity(const std::filesystem::path& path, const MatrixInputs& inputs,

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "growth_scaling/made_town.h"
-#include "harness/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/csv.h"
 #include "harness/observed_streets.h"
@@ -106,7 +106,7 @@ void write_exponents(const std::vector<Row>& rows, const Arguments& args) {
                  town_name(kind), grower, law->exponent, over->exponent);
     }
   }
-  harness::write_file(args.out / "exponents.csv", table.text());
+  write_file(args.out / "exponents.csv", table.text());
 }
 
 void run(const Arguments& args) {
@@ -136,8 +136,8 @@ void run(const Arguments& args) {
   for (const Row& row : rows)
     table.add_row(row.town, row.grower, args.seed, row.points, row.streets, row.left_alone,
                   row.time.wall_s, row.time.cpu_s, row.peak_mb, row.failure);
-  harness::write_file(args.out / "scaling.csv", table.text());
-  harness::write_file(args.out / "build.json", harness::build_info().dump(2) + "\n");
+  write_file(args.out / "scaling.csv", table.text());
+  write_file(args.out / "build.json", harness::build_info().dump(2) + "\n");
   write_exponents(rows, args);
 }
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/working_grid.h"
-#include "harness/atomic_file.h"
 
 namespace plat::harness {
 namespace {

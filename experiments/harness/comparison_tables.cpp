@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/atomic_file.h"
+#include "core/atomic_file.h"
 
 namespace plat::harness {
 namespace {

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/progress.h"
 #include "geodata/dataset_catalogue.h"
-#include "harness/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/cell_store.h"
 #include "harness/city.h"

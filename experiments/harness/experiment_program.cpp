@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/atomic_file.h"
 #include "core/failure.h"
-#include "harness/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/json_file.h"
 

@@ -1,6 +1,6 @@
 #include "harness/run_tables.h"
 
-#include "harness/atomic_file.h"
+#include "core/atomic_file.h"
 #include "statistics/distances.h"
 
 namespace plat::harness {

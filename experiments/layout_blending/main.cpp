@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "harness/atomic_file.h"
+#include "core/atomic_file.h"
 #include "harness/experiment_program.h"
 #include "layout_blending/blending_experiment.h"
 #include "layout_blending/blending_tables.h"
@@ -17,11 +17,11 @@ bool run(const harness::ProgramCall& call) {
   const BlendingConfig config = parse_blending_config(call.config, call.config_file);
   const BlendingResult result = run_blending(config, call.jobs);
   std::filesystem::create_directories(call.out);
-  harness::write_file(call.out / "blends.csv", blends_csv(config, result));
-  harness::write_file(call.out / "examples.csv", examples_csv(config, result));
-  harness::write_file(call.out / "weights.csv", weights_csv(config, result));
-  harness::write_file(call.out / "trends.csv", trends_csv(config, result));
-  harness::write_file(call.out / "networks.csv", networks_csv(config, result));
+  write_file(call.out / "blends.csv", blends_csv(config, result));
+  write_file(call.out / "examples.csv", examples_csv(config, result));
+  write_file(call.out / "weights.csv", weights_csv(config, result));
+  write_file(call.out / "trends.csv", trends_csv(config, result));
+  write_file(call.out / "networks.csv", networks_csv(config, result));
   harness::write_manifest(call);
   return std::ranges::all_of(result.rows, [](const BlendRow& row) { return row.status == "ok"; });
 }

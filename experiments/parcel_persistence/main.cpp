@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/atomic_file.h"
 #include "core/progress.h"
 #include "editing/editor.h"
-#include "harness/atomic_file.h"
 #include "harness/city.h"
 #include "harness/config_reader_internal.h"
 #include "harness/csv.h"
@@ -342,8 +342,8 @@ bool run(const harness::ProgramCall& call) {
   Experiment experiment(config, call.jobs);
   experiment.run(city.network);
   std::filesystem::create_directories(call.out);
-  harness::write_file(call.out / "edits.csv", experiment.edits_csv());
-  harness::write_file(call.out / "summary.csv", experiment.summary_csv());
+  write_file(call.out / "edits.csv", experiment.edits_csv());
+  write_file(call.out / "summary.csv", experiment.summary_csv());
   harness::write_manifest(call);
   return true;
 }

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/atomic_file.h"
 #include "geodata/layer_io.h"
-#include "harness/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/city_layers.h"
 #include "harness/csv.h"
@@ -176,9 +176,9 @@ void write_tables(const std::map<std::string, std::vector<Row>>& rows, int threa
                       exponent(of_strategy, [](const Row& r) { return r.check.cpu_s; }),
                       of_strategy.size());
   }
-  harness::write_file(args.out / "scaling.csv", table.text());
-  harness::write_file(args.out / "exponents.csv", exponents.text());
-  harness::write_file(args.out / "build.json", harness::build_info().dump(2) + "\n");
+  write_file(args.out / "scaling.csv", table.text());
+  write_file(args.out / "exponents.csv", exponents.text());
+  write_file(args.out / "build.json", harness::build_info().dump(2) + "\n");
 }
 
 void run(const Arguments& args) {

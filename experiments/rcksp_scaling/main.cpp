@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "harness/atomic_file.h"
+#include "core/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/json_file.h"
 #include "rcksp_scaling/scaling_experiment.h"
@@ -64,11 +64,11 @@ bool run(const Arguments& args) {
     fmt::print("{}\n", line);
     std::fflush(stdout);
   });
-  harness::write_file(args.out / "runs.csv", runs_csv(config, cells));
-  harness::write_file(args.out / "cells.csv", cells_csv(config, cells));
-  harness::write_file(args.out / "exponents.csv", exponents_csv(config, cells));
-  harness::write_file(args.out / "solutions.csv", solutions_csv(config, cells));
-  harness::write_file(args.out / "buildings.csv", buildings_csv(config));
+  write_file(args.out / "runs.csv", runs_csv(config, cells));
+  write_file(args.out / "cells.csv", cells_csv(config, cells));
+  write_file(args.out / "exponents.csv", exponents_csv(config, cells));
+  write_file(args.out / "solutions.csv", solutions_csv(config, cells));
+  write_file(args.out / "buildings.csv", buildings_csv(config));
   const json manifest{{"build", harness::build_info()},
                       {"config", object},
                       {"studies", args.studies},
@@ -76,7 +76,7 @@ bool run(const Arguments& args) {
                       {"load_before", load_before},
                       {"load_after", load()},
                       {"duration_s", running.elapsed().wall_s}};
-  harness::write_file(args.out / "manifest.json", manifest.dump(2) + "\n");
+  write_file(args.out / "manifest.json", manifest.dump(2) + "\n");
   return std::ranges::none_of(cells, [](const CellResult& cell) {
     return std::ranges::any_of(cell.contenders, [](const ContenderResult& contender) {
       const RunStatus status = contender.guarded.status;

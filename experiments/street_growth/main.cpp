@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/atomic_file.h"
 #include "core/progress.h"
 #include "geodata/layer_io.h"
-#include "harness/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/experiment_program.h"
 #include "street_growth/growth_maps.h"
@@ -86,13 +86,12 @@ bool run(const harness::ProgramCall& call) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<CityResult> cities = run_all(config, call.jobs);
   std::filesystem::create_directories(out);
-  harness::write_file(
-      out / "cells.csv",
-      cells_csv(config, cities, harness::build_info().at("commit").get<std::string>()));
-  harness::write_file(out / "recovery.csv", recovery_csv(config, cities));
-  harness::write_file(out / "differences.csv", differences_csv(config, cities));
-  harness::write_file(out / "distances.csv", distances_csv(config, cities));
-  harness::write_file(out / "scalars.csv", scalars_csv(config, cities));
+  write_file(out / "cells.csv",
+             cells_csv(config, cities, harness::build_info().at("commit").get<std::string>()));
+  write_file(out / "recovery.csv", recovery_csv(config, cities));
+  write_file(out / "differences.csv", differences_csv(config, cities));
+  write_file(out / "distances.csv", distances_csv(config, cities));
+  write_file(out / "scalars.csv", scalars_csv(config, cities));
   json more;
   bool is_complete = true;
   for (const CityResult& city : cities) {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "harness/atomic_file.h"
+#include "core/atomic_file.h"
 #include "harness/experiment_program.h"
 #include "harness/json_file.h"
 #include "tile_displacement/displacement_experiment.h"
@@ -18,10 +18,10 @@ bool run(const harness::ProgramCall& call) {
   const DisplacementConfig config = parse_displacement_config(call.config, call.config_file);
   const DisplacementResult result = run_displacements(config, call.jobs);
   std::filesystem::create_directories(call.out);
-  harness::write_file(call.out / "displacements.csv", displacements_csv(config, result));
-  harness::write_file(call.out / "curves.csv", curves_csv(config, result));
-  harness::write_file(call.out / "replacements.csv", replacements_csv(config, result));
-  harness::write_file(call.out / "cities.csv", cities_csv(config, result));
+  write_file(call.out / "displacements.csv", displacements_csv(config, result));
+  write_file(call.out / "curves.csv", curves_csv(config, result));
+  write_file(call.out / "replacements.csv", replacements_csv(config, result));
+  write_file(call.out / "cities.csv", cities_csv(config, result));
   harness::write_manifest(call);
   return std::ranges::all_of(result.rows,
                              [](const DisplacementRow& row) { return row.status == "ok"; });

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/atomic_file.h"
 #include "geodata/layer_io.h"
-#include "harness/atomic_file.h"
 #include "harness/build_info.h"
 #include "harness/config_reader_internal.h"
 #include "harness/observed_tiles.h"
@@ -233,7 +233,7 @@ bool show_scene(const Scene& scene, const std::filesystem::path& out, Jobs jobs)
   }
   std::filesystem::create_directories(out);
   geodata::write_layers((out / "tiles.gpkg").string(), layers);
-  harness::write_file(out / "measures.json", measures.dump(2) + "\n");
+  write_file(out / "measures.json", measures.dump(2) + "\n");
   return is_good;
 }
 

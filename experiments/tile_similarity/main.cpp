@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/atomic_file.h"
 #include "core/failure.h"
 #include "core/progress.h"
-#include "harness/atomic_file.h"
 #include "harness/experiment_program.h"
 #include "tile_similarity/matrix_pruning.h"
 #include "tile_similarity/similarity_tables.h"
@@ -44,14 +44,14 @@ bool run(const harness::ProgramCall& call) {
   const std::vector<PlaceResult> places = run_places(config, call.jobs);
   const PruningResult pruning = run_pruning(config, call.jobs);
   std::filesystem::create_directories(call.out);
-  harness::write_file(call.out / "retrieval.csv", retrieval_csv(config, places));
-  harness::write_file(call.out / "differences.csv", differences_csv(config, places));
-  harness::write_file(call.out / "correlation.csv", correlation_csv(config, places));
-  harness::write_file(call.out / "times.csv", times_csv(places));
-  harness::write_file(call.out / "examples.csv", examples_csv(places));
-  harness::write_file(call.out / "places.csv", places_csv(places));
-  harness::write_file(call.out / "pruning.csv", pruning_csv(pruning.matrices));
-  harness::write_file(call.out / "candidates.csv", candidates_csv(pruning.candidates));
+  write_file(call.out / "retrieval.csv", retrieval_csv(config, places));
+  write_file(call.out / "differences.csv", differences_csv(config, places));
+  write_file(call.out / "correlation.csv", correlation_csv(config, places));
+  write_file(call.out / "times.csv", times_csv(places));
+  write_file(call.out / "examples.csv", examples_csv(places));
+  write_file(call.out / "places.csv", places_csv(places));
+  write_file(call.out / "pruning.csv", pruning_csv(pruning.matrices));
+  write_file(call.out / "candidates.csv", candidates_csv(pruning.candidates));
   harness::write_manifest(call);
   return true;
 }

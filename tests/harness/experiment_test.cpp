@@ -6,7 +6,6 @@
 #include <map>
 
 #include "geodata/scratch_folder.h"
-#include "harness/atomic_file.h"
 #include "support/data_folder.h"
 
 namespace plat::harness {
@@ -89,24 +88,6 @@ TEST(RunExperiment, MakesNoFolderForADataSetThatIsNotThere) {
   EXPECT_THROW(static_cast<void>(run_experiment(config, folder.file("run"), Jobs{1}, Resume::kNo)),
                InputError);
   EXPECT_FALSE(fs::exists(folder.file("run")));
-}
-
-TEST(WriteFile, ReplacesWholeOrNotAtAll) {
-  const ScratchFolder folder;
-  const fs::path path = folder.file("a.csv");
-  write_file(path, "one");
-  write_file(path, "two");
-  EXPECT_EQ(testing::bytes_of(path.string()), "two");
-  EXPECT_THROW(write_file(folder.file("none/a.csv"), "three"), InputError);
-  fs::create_directory(folder.file("taken"));
-  write_file(folder.file("taken/inside"), "");
-  EXPECT_THROW(write_file(folder.file("taken"), "four"), InputError);
-  std::size_t files = 0;
-  for (const auto& entry : fs::directory_iterator(folder.file(""))) {
-    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
-    ++files;
-  }
-  EXPECT_EQ(files, 2U);
 }
 
 }  // namespace

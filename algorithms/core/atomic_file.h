@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string_view>
 
-namespace plat::harness {
+namespace plat {
 
 /// Writes a file whole or not at all: to a temporary beside it, then renamed.
 /// @throws InputError where the path cannot be written
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-}  // namespace plat::harness
+}  // namespace plat

@@ -1,11 +1,11 @@
-#include "harness/atomic_file.h"
+#include "core/atomic_file.h"
 
 #include <fstream>
 #include <system_error>
 
 #include "core/failure.h"
 
-namespace plat::harness {
+namespace plat {
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
   std::filesystem::path temporary = path;
@@ -30,4 +30,4 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   }
 }
 
-}  // namespace plat::harness
+}  // namespace plat
