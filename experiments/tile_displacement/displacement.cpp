@@ -37,7 +37,7 @@ std::vector<tiles::ControlPoint> controls_of(const TileLayout& layout, const Til
       fixed.push_back(tile.placement(graph.tiles[i].centroid));
     if (displacement.roles[i] != Role::kMoved) continue;
     for (const Corner& corner : tile.rings.front())
-      moved.emplace(layout.vertices[corner.vertex].at, displacement.targets[i](corner.rest));
+      moved.emplace(tile.placement(corner.rest), displacement.targets[i](corner.rest));
   }
   const std::size_t each = 1 + fixed.size() / kMostFixedControls;
   for (std::size_t i = 0; i < fixed.size(); i += each) moved.emplace(fixed[i], fixed[i]);
