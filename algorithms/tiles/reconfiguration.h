@@ -22,6 +22,7 @@ struct ReplacementOptions {
   double deformation_threshold = 0.25;  ///< a tile deformed by more is replaced if that helps
   double gap_threshold_m = 4.0;         ///< or one with a larger mean gap to its neighbours
   int candidates = 5;                   ///< the most similar ones that are tried
+  int unions = 0;                       ///< the most similar unions of two tiles that are tried
   int max_rounds = 10;
   static constexpr auto fields() {
     using O = ReplacementOptions;
@@ -31,6 +32,8 @@ struct ReplacementOptions {
         Field{"gap_threshold_m", &O::gap_threshold_m, 0.0, 1e4,
               "So does a tile with a larger mean gap to its neighbours."},
         Field{"candidates", &O::candidates, 1, 1000, "How many of the most similar are tried."},
+        Field{"unions", &O::unions, 0, 1000,
+              "How many of the most similar unions of two adjacent tiles are tried after them."},
         Field{"max_rounds", &O::max_rounds, 1, 1000, "Rounds of replacing and solving."}};
   }
 };
@@ -132,7 +135,8 @@ Expected<Reconfiguration> cut_tiles(const TileLayout& layout, std::span<const Ti
 Expected<Reconfiguration> paste_tiles(const TileLayout& layout, const TileGroup& group,
                                       const Affine& to, const ReconfigurationOptions& options);
 
-/// Replaces tiles over the thresholds, in rounds, until none is left or none helps.
+/// Replaces tiles over the thresholds, in rounds, until none is left or none helps: one for one,
+/// one for two neighbours, or, where `unions` says so, two adjacent ones for one.
 Expected<Reconfiguration> replace_deformed_tiles(const TileLayout& layout,
                                                  const ReplacementOptions& replacement,
                                                  const ReconfigurationOptions& options);

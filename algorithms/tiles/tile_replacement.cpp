@@ -22,58 +22,39 @@ constexpr double kTrialReach_m = 120.0;
 /// A total error that falls by less than this share did not fall.
 constexpr double kFalls_01 = 1e-6;
 
-/// Tiles as they were observed, to be put in the place of others.
+/// What may be put in the place of tiles: single tiles, or unions of tiles, of the observed city.
 class Candidates {
  public:
-  Candidates(const TileLayout& observed, const ReconfigurationOptions& options);
+  explicit Candidates(const ReconfigurationOptions& options) : measure_(measure_of(options)) {}
+
+  void add(TileLayout piece, similarity::LabelledShape shape, std::vector<TileId> ids);
+  /// After the last is added.
+  void prepare();
 
   /// Those most similar to a shape, of its zone, nearest first.
   [[nodiscard]] std::vector<std::uint32_t> most_similar(const similarity::LabelledShape& place,
                                                         int count, TileId except) const;
-  [[nodiscard]] const TileLayout& tile(std::uint32_t candidate) const { return tiles_[candidate]; }
+  [[nodiscard]] const TileLayout& piece(std::uint32_t candidate) const {
+    return pieces_[candidate];
+  }
   [[nodiscard]] similarity::ShapeComparison compare(std::uint32_t candidate,
                                                     const similarity::LabelledShape& place) const;
 
  private:
-  std::vector<TileLayout> tiles_;  ///< one tile each, where it was observed
+  std::vector<TileLayout> pieces_;
   std::vector<similarity::LabelledShape> shapes_;
-  std::vector<TileId> ids_;
+  std::vector<std::vector<TileId>> ids_;
   similarity::AnyShapeSimilarity measure_;
   std::optional<similarity::CandidateSearch> search_;
 };
 
-TileLayout at_rest(const Tile& tile) {
-  TileLayout out;
-  Tile copy = tile;
-  copy.placement = {};
-  copy.rings.resize(1);
-  for (Corner& corner : copy.rings.front()) {
-    out.vertices.push_back({corner.rest, true});
-    corner.vertex = static_cast<std::uint32_t>(out.vertices.size() - 1);
-  }
-  out.tiles.push_back(std::move(copy));
-  return out;
+void Candidates::add(TileLayout piece, similarity::LabelledShape shape, std::vector<TileId> ids) {
+  pieces_.push_back(std::move(piece));
+  shapes_.push_back(std::move(shape));
+  ids_.push_back(std::move(ids));
 }
 
-Candidates::Candidates(const TileLayout& observed, const ReconfigurationOptions& options)
-    : measure_(measure_of(options)) {
-  std::vector<std::uint32_t> all(observed.tiles.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  const EdgeMap edges = edges_of(observed, all);
-  for (const std::uint32_t i : all) {
-    const Tile& tile = observed.tiles[i];
-    if (tile.rings.size() != 1 || tile.zone == kVacantZone) continue;
-    similarity::LabelledShape shape{rest_shape_of(tile), {}, tile.zone};
-    const auto& ring = tile.rings.front();
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const bool is_property = edges.contains({ring[(k + 1) % ring.size()].vertex, ring[k].vertex});
-      shape.edges.push_back(is_property ? similarity::EdgeLabel::kProperty
-                                        : similarity::EdgeLabel::kStreet);
-    }
-    tiles_.push_back(at_rest(tile));
-    shapes_.push_back(std::move(shape));
-    ids_.push_back(tile.id);
-  }
+void Candidates::prepare() {
   if (shapes_.empty()) return;
   similarity::Clusters one{std::vector<std::uint32_t>(shapes_.size(), 0), {{}}};
   for (std::uint32_t i = 0; i < shapes_.size(); ++i) one.members.front().push_back(i);
@@ -85,7 +66,7 @@ std::vector<std::uint32_t> Candidates::most_similar(const similarity::LabelledSh
   if (!search_) return {};
   std::vector<std::uint32_t> excluded;
   for (std::uint32_t i = 0; i < ids_.size(); ++i) {
-    if (ids_[i] == except) excluded.push_back(i);
+    if (std::ranges::find(ids_[i], except) != ids_[i].end()) excluded.push_back(i);
   }
   const auto found = search_->most_similar(place, {.count = count}, excluded);
   std::vector<std::uint32_t> out;
@@ -100,6 +81,86 @@ similarity::ShapeComparison Candidates::compare(std::uint32_t candidate,
   const auto b = measure_.prepare(place);
   if (!a || !b) return {};
   return measure_.compare(*a, *b);
+}
+
+bool may_replace(const Tile& tile) { return tile.rings.size() == 1 && tile.zone != kVacantZone; }
+
+TileLayout at_rest(const Tile& tile) {
+  TileLayout out;
+  Tile copy = tile;
+  copy.placement = {};
+  copy.rings.resize(1);
+  for (Corner& corner : copy.rings.front()) {
+    out.vertices.push_back({corner.rest, true});
+    corner.vertex = static_cast<std::uint32_t>(out.vertices.size() - 1);
+  }
+  out.tiles.push_back(std::move(copy));
+  return out;
+}
+
+/// Tiles, each where it was observed.
+Candidates single_tiles(const TileLayout& observed, const EdgeMap& edges,
+                        const ReconfigurationOptions& options) {
+  Candidates out(options);
+  for (const Tile& tile : observed.tiles) {
+    if (!may_replace(tile)) continue;
+    similarity::LabelledShape shape{rest_shape_of(tile), {}, tile.zone};
+    const auto& ring = tile.rings.front();
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const bool is_property = edges.contains({ring[(k + 1) % ring.size()].vertex, ring[k].vertex});
+      shape.edges.push_back(is_property ? similarity::EdgeLabel::kProperty
+                                        : similarity::EdgeLabel::kStreet);
+    }
+    out.add(at_rest(tile), std::move(shape), {tile.id});
+  }
+  out.prepare();
+  return out;
+}
+
+/// Two tiles as they stand, with the vertices that they share.
+TileLayout as_they_stand(const TileLayout& observed, std::pair<std::uint32_t, std::uint32_t> two) {
+  TileLayout out;
+  std::map<std::uint32_t, std::uint32_t> vertex_of;
+  for (const std::uint32_t i : {two.first, two.second}) {
+    Tile tile = observed.tiles[i];
+    for (Corner& corner : tile.rings.front()) {
+      const auto [found, is_new] =
+          vertex_of.try_emplace(corner.vertex, static_cast<std::uint32_t>(out.vertices.size()));
+      if (is_new) out.vertices.push_back(observed.vertices[corner.vertex]);
+      corner.vertex = found->second;
+    }
+    out.tiles.push_back(std::move(tile));
+  }
+  return out;
+}
+
+/// Unions of two tiles of one zone that have an edge in common.
+Candidates unions_of_two(const TileLayout& observed, const EdgeMap& edges,
+                         const ReconfigurationOptions& options) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const auto& [edge, place] : edges) {
+    const auto beyond = edges.find({edge.second, edge.first});
+    if (beyond == edges.end() || beyond->second.tile <= place.tile) continue;
+    const Tile& a = observed.tiles[place.tile];
+    const Tile& b = observed.tiles[beyond->second.tile];
+    if (may_replace(a) && may_replace(b) && a.zone == b.zone)
+      pairs.emplace(place.tile, beyond->second.tile);
+  }
+  Candidates out(options);
+  for (const auto& two : pairs) {
+    const auto outline = outline_of(observed, std::vector{two.first, two.second});
+    if (!outline) continue;
+    out.add(as_they_stand(observed, two), shape_of(observed, *outline, edges),
+            {observed.tiles[two.first].id, observed.tiles[two.second].id});
+  }
+  out.prepare();
+  return out;
+}
+
+EdgeMap all_edges(const TileLayout& layout) {
+  std::vector<std::uint32_t> all(layout.tiles.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  return edges_of(layout, all);
 }
 
 /// Tiles turned inside out, with nothing, and pairs that overlap, by ids.
@@ -152,8 +213,12 @@ class Rounds {
       : now_(std::move(start)),
         replacement_(replacement),
         options_(options),
-        candidates_(observed, options),
+        tiles_(options),
+        unions_(options),
         report_(report) {
+    const EdgeMap edges = all_edges(observed);
+    tiles_ = single_tiles(observed, edges, options);
+    if (replacement.unions > 0) unions_ = unions_of_two(observed, edges, options);
     for (const auto& [tile, target] : held) held_.emplace(now_.layout.tiles[tile].id, target);
     now_.layout = settled(std::move(now_.layout));
     defects_ = defects_of(now_.layout);
@@ -165,8 +230,9 @@ class Rounds {
  private:
   [[nodiscard]] std::vector<TileId> over_thresholds() const;
   bool replace(TileId id);
-  bool put_in_place(const std::vector<std::uint32_t>& replaced);
-  Trial try_candidate(std::uint32_t candidate, const Hole& hole);
+  bool put_in_place(const Candidates& candidates, int count,
+                    const std::vector<std::uint32_t>& replaced);
+  Trial try_candidate(const Candidates& candidates, std::uint32_t candidate, const Hole& hole);
   [[nodiscard]] double error_within(const std::vector<std::uint32_t>& tiles) const;
   bool solve_all();
   /// The outcome, settled, is the layout from now on, unless it has a defect that it had not.
@@ -175,7 +241,8 @@ class Rounds {
   SolvedLayout now_;
   const ReplacementOptions& replacement_;
   const ReconfigurationOptions& options_;
-  Candidates candidates_;
+  Candidates tiles_;
+  Candidates unions_;
   HeldById held_;
   Defects defects_;
   ReconfigurationReport& report_;
@@ -249,10 +316,11 @@ bool Rounds::accept(SolvedLayout outcome) {
 }
 
 /// Puts a candidate there if the total error then falls and nothing new overlaps.
-Trial Rounds::try_candidate(std::uint32_t candidate, const Hole& hole) {
-  auto trial = substituted(now_.layout, {.piece = &candidates_.tile(candidate),
+Trial Rounds::try_candidate(const Candidates& candidates, std::uint32_t candidate,
+                            const Hole& hole) {
+  auto trial = substituted(now_.layout, {.piece = &candidates.piece(candidate),
                                          .replaced = hole.replaced,
-                                         .comparison = candidates_.compare(candidate, hole.place),
+                                         .comparison = candidates.compare(candidate, hole.place),
                                          .as_placed = {},
                                          .unmet = UnmetVertices::kKept});
   if (!trial) return Trial::kNoPlace;
@@ -267,16 +335,16 @@ Trial Rounds::try_candidate(std::uint32_t candidate, const Hole& hole) {
   return accept(*std::move(outcome)) ? Trial::kReplaced : Trial::kRefused;
 }
 
-bool Rounds::put_in_place(const std::vector<std::uint32_t>& replaced) {
+bool Rounds::put_in_place(const Candidates& candidates, int count,
+                          const std::vector<std::uint32_t>& replaced) {
   const auto outline = outline_of(now_.layout, replaced);
   if (!outline) return false;
   const Tile& first = now_.layout.tiles[replaced.front()];
   const Hole hole{replaced,
                   shape_of(now_.layout, *outline, edges_of_block(now_.layout, first.block)),
                   error_within(replaced)};
-  for (const std::uint32_t candidate :
-       candidates_.most_similar(hole.place, replacement_.candidates, first.id)) {
-    switch (try_candidate(candidate, hole)) {
+  for (const std::uint32_t candidate : candidates.most_similar(hole.place, count, first.id)) {
+    switch (try_candidate(candidates, candidate, hole)) {
       case Trial::kReplaced:
         ++report_.replacements;
         return true;
@@ -291,11 +359,11 @@ bool Rounds::put_in_place(const std::vector<std::uint32_t>& replaced) {
   return false;
 }
 
-/// One for one, else one for the tile and a neighbour.
+/// One for one, else one for the tile and a neighbour, else two for one.
 bool Rounds::replace(TileId id) {
   const auto tile = find_tile(now_.layout, id);
   if (!tile) return false;  // replaced together with a neighbour
-  if (put_in_place({*tile})) return true;
+  if (put_in_place(tiles_, replacement_.candidates, {*tile})) return true;
   const EdgeMap edges = edges_of_block(now_.layout, now_.layout.tiles[*tile].block);
   std::set<std::uint32_t> neighbours;
   for (const auto& [edge, place] : edges) {
@@ -307,9 +375,11 @@ bool Rounds::replace(TileId id) {
       neighbours.insert(beyond->second.tile);
   }
   for (const std::uint32_t other : neighbours) {
-    if (put_in_place({std::min(*tile, other), std::max(*tile, other)})) return true;
+    if (put_in_place(tiles_, replacement_.candidates,
+                     {std::min(*tile, other), std::max(*tile, other)}))
+      return true;
   }
-  return false;
+  return replacement_.unions > 0 && put_in_place(unions_, replacement_.unions, {*tile});
 }
 
 /// Solves for all tiles that the operation leaves free; kept if the total error does not rise.

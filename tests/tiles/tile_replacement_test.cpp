@@ -135,6 +135,46 @@ TEST(Replacement, WhatCannotBeLaidThereIsCountedApart) {
   EXPECT_GT(result->report.replacements_without_place, 0U);
 }
 
+/// Blocks of three square lots, and one whose middle lot is pulled to twice its width.
+Expected<Reconfiguration> pulled_apart(int unions) {
+  std::vector<TilePiece> pieces;
+  for (std::uint32_t block = 0; block < 3; ++block) {
+    for (int i = 0; i < 3; ++i) {
+      const double x = 20.0 * i;
+      const double y = 500.0 * block;  // no street between blocks
+      pieces.push_back({"",
+                        i == 1 ? "park" : "residential",
+                        block,
+                        {{{x, y}, {x + 20, y}, {x + 20, y + 20}, {x, y + 20}}, {}}});
+      if (block > 0) pieces.back().zone = "park";
+    }
+  }
+  TileLayout layout = construct_layout(pieces).layout;
+  for (Tile& tile : layout.tiles) tile.is_pinned = tile.block > 0;
+  layout.tiles[0].is_pinned = true;
+  auto options = replacing();
+  options.replacement->unions = unions;
+  return move_tiles(layout, {{layout.tiles[2].id}}, Affine::translation({20, 0}), options);
+}
+
+TEST(Replacement, TwoTilesTakeThePlaceOfOneThatIsMuchTooLarge) {
+  const auto without = pulled_apart(0);
+  const auto with = pulled_apart(3);
+  ASSERT_TRUE(without && with);
+  EXPECT_EQ(without->report.replacements, 0U);
+  EXPECT_EQ(with->report.replacements, 1U);
+  EXPECT_EQ(with->report.vanished, std::vector{TileId{1}});
+  ASSERT_EQ(with->report.appeared.size(), 2U);
+  for (const TileId id : with->report.appeared) {
+    EXPECT_EQ(tile_of(with->layout, id).zone, "park");
+    EXPECT_EQ(tile_of(with->layout, id).block, 0U);
+    EXPECT_NEAR(area_m2(land_of(with->layout, id)), 400.0, 1.0);
+  }
+  EXPECT_LT(with->report.objective, 0.1 * without->report.objective);
+  EXPECT_EQ(defect_of(with->layout), "");
+  EXPECT_EQ(coverage_defect_of(with->layout), "");
+}
+
 TEST(Replacement, NothingOverTheThresholdsNothingReplaced) {
   const TileLayout layout = made_layout({});
   auto options = replacing();
