@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/failure.h"
+#include "similarity/rigid_alignment.h"
 #include "tiles/reconfiguration_internal.h"
 
 namespace plat::tiles::detail {
@@ -36,25 +37,6 @@ Affine motion_by(double angle_rad, Point from, Point to) {
   return out;
 }
 
-/// The rigid motion that carries the first points to the second ones with the least squares.
-Affine rigid_fit(const Pairs& pairs) {
-  Point from;
-  Point to;
-  for (const auto& [a, b] : pairs) {
-    from = from + a;
-    to = to + b;
-  }
-  from = from / static_cast<double>(pairs.size());
-  to = to / static_cast<double>(pairs.size());
-  double c = 0.0;
-  double s = 0.0;
-  for (const auto& [a, b] : pairs) {
-    c += dot(a - from, b - to);
-    s += cross(a - from, b - to);
-  }
-  return motion_by(std::atan2(s, c), from, to);
-}
-
 double squares(const Affine& motion, const Pairs& pairs) {
   double sum = 0.0;
   for (const auto& [a, b] : pairs) sum += squared_length(motion(a) - b);
@@ -82,7 +64,7 @@ Affine best_alignment(const ArcLength& from, const ArcLength& to, const Affine& 
   double best_squares = std::numeric_limits<double>::infinity();
   for (std::size_t offset = 0; offset < kSamples; ++offset) {
     const Pairs pairs = sampled(from, to, offset);
-    const Affine motion = rigid_fit(pairs);
+    const Affine motion = similarity::rigid_alignment(pairs);
     const double sum = squares(motion, pairs);
     const bool is_as_good = std::abs(sum - best_squares) <= kAsGood_01 * best_squares;
     if (is_as_good ? turned_against(motion, as_placed) < turned_against(best, as_placed)
@@ -101,7 +83,8 @@ Affine motion_of(const similarity::ShapeComparison& comparison, const ArcLength&
     return motion_by(rotation_of(*comparison.transformation), center,
                      (*comparison.transformation)(center));
   }
-  if (comparison.correspondence.size() >= 2) return rigid_fit(comparison.correspondence);
+  if (comparison.correspondence.size() >= 2)
+    return similarity::rigid_alignment(comparison.correspondence);
   return best_alignment(from, to, as_placed);
 }
 

@@ -143,11 +143,6 @@ double ArcLength::wrapped(double s) const {
   return out >= total ? 0.0 : out;
 }
 
-void insert_corner(TileLayout& layout, const EdgePlace& edge, const Corner& corner) {
-  auto& ring = layout.tiles[edge.tile].rings[edge.ring];
-  ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(edge.corner) + 1, corner);
-}
-
 bool is_straight_at_rest(const std::vector<Corner>& ring, std::size_t corner) {
   const std::size_t n = ring.size();
   if (n <= 3) return false;

@@ -70,9 +70,6 @@ class ArcLength {
   std::vector<double> at_;  ///< n + 1
 };
 
-/// Puts a vertex into the edge of a tile. Places of later corners of the ring change.
-void insert_corner(TileLayout& layout, const EdgePlace& edge, const Corner& corner);
-
 /// Whether a corner lies on the straight line between its neighbours at rest.
 bool is_straight_at_rest(const std::vector<Corner>& ring, std::size_t corner);
 
