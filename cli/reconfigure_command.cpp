@@ -44,6 +44,7 @@ void print_step(std::size_t number, const harness::ReconfigureStep& step,
                  tiles->replacements, tiles->replacements_refused,
                  tiles->replacements_without_place, tiles->rounds);
     }
+    if (tiles->stiffened > 0) fmt::print(" {} stiffened so that none overlap;", tiles->stiffened);
     fmt::print(
         " mean gap {:.3f} -> {:.3f} m, across streets {:.3f} -> {:.3f} m, deformation {:.4f} -> "
         "{:.4f}, at most {:.4f};",

@@ -84,7 +84,7 @@ Equation LayoutEquations::common_map(const Joint& joint, std::uint32_t part) con
 
 Equation LayoutEquations::deformation(std::uint32_t tile) const {
   Equation out;
-  out.weight = rigidity_;
+  out.weight = rigidity_ * graph_->tiles[tile].rigidity;
   out.terms[0] = {tile * kUnknownsPerTile + 2, 2.0 * graph_->tiles[tile].radius_m / reach_m_[tile]};
   out.size = 1;
   return out;
@@ -92,7 +92,7 @@ Equation LayoutEquations::deformation(std::uint32_t tile) const {
 
 Equation LayoutEquations::size(std::uint32_t tile) const {
   Equation out;
-  out.weight = rigidity_ * keep_size_;
+  out.weight = rigidity_ * graph_->tiles[tile].rigidity * keep_size_;
   out.terms[0] = {tile * kUnknownsPerTile + 1, 2.0 * graph_->tiles[tile].radius_m / reach_m_[tile]};
   out.size = 1;
   return out;

@@ -53,7 +53,7 @@ class LayoutEquations {
   LayoutEquations(const TileGraph& graph, const SolverOptions& options);
 
   [[nodiscard]] double joint_weight(const Joint& joint) const {
-    return joint.kind == JointKind::kStreet ? street_weight_ : 1.0;
+    return joint.weight * (joint.kind == JointKind::kStreet ? street_weight_ : 1.0);
   }
 
   /// (p, s a, s b) with s the reach of the tile, so that every unknown is in metres.

@@ -8,6 +8,7 @@
 
 #include "core/working_grid.h"
 #include "tiles/layout_defects.h"
+#include "tiles/layout_stiffening_internal.h"
 #include "tiles/reconfiguration_internal.h"
 #include "tiles/settling.h"
 #include "tiles/tile_replacement_internal.h"
@@ -87,8 +88,8 @@ Targets held_or_farthest(const TileLayout& layout, Targets held, std::span<const
   return held;
 }
 
-Expected<SolvedLayout> solved(TileLayout layout, const Targets& held,
-                              const SolverOptions& options) {
+Expected<SolvedLayout> solved(TileLayout layout, const Targets& held, const SolverOptions& options,
+                              std::span<const double> stiffness) {
   std::vector<std::uint32_t> indices;
   std::vector<Affine> targets;
   for (const auto& [tile, target] : held) {
@@ -98,7 +99,7 @@ Expected<SolvedLayout> solved(TileLayout layout, const Targets& held,
   std::vector<Affine> resting;
   for (const Tile& tile : layout.tiles) resting.push_back(tile.placement);
   const TileGraph graph = graph_of(layout);
-  const auto solver = LayoutSolver::make(graph, std::move(indices), options);
+  const auto solver = LayoutSolver::make(stiffened(graph, stiffness), std::move(indices), options);
   if (!solver) return tl::unexpected(solver.error());
   auto solution = solver->solve(targets, resting);
   if (!solution) return tl::unexpected(solution.error());
@@ -112,6 +113,8 @@ Expected<SolvedLayout> solved(TileLayout layout, const Targets& held,
       placement = tile.placement;
     tile.placement = placement;
   }
+  if (!stiffness.empty())
+    *solution = measure_placements(graph, std::move(solution->placements), options);
   return SolvedLayout{std::move(layout), *std::move(solution)};
 }
 
@@ -148,6 +151,8 @@ void compare(const TileLayout& before, const TileLayout& after, const LayoutSolu
 
 Expected<Reconfiguration> reconfigured(const TileLayout& before, TileLayout changed,
                                        const Targets& held, const ReconfigurationOptions& options) {
+  std::map<TileId, Affine> held_ids;  // replacements change indices
+  for (const auto& [tile, target] : held) held_ids.emplace(changed.tiles[tile].id, target);
   auto outcome = solved(std::move(changed), held, options.solver);
   if (!outcome) return tl::unexpected(outcome.error());
   ReconfigurationReport report;
@@ -155,7 +160,15 @@ Expected<Reconfiguration> reconfigured(const TileLayout& before, TileLayout chan
   if (options.replacement)
     outcome =
         with_replacements(before, *std::move(outcome), held, *options.replacement, options, report);
-  auto layout = settled_and_checked(std::move(outcome->layout));
+  auto layout = settled_and_checked(outcome->layout);
+  if (!layout && layout.error().code == FailureCode::kTilesOverlap) {
+    auto stiffer = without_overlaps(*outcome, held_ids, options.solver);
+    if (!stiffer) return tl::unexpected(layout.error());  // the first place is the operation's
+    outcome = std::move(stiffer->solved);
+    layout = std::move(stiffer->layout);
+    report.stiffened = stiffer->tiles;
+    report.rounds += stiffer->solutions;
+  }
   if (!layout) return tl::unexpected(layout.error());
   compare(before, *layout, outcome->solution, report);
   return Reconfiguration{*std::move(layout), std::move(report)};

@@ -41,6 +41,8 @@ std::optional<Failure> find_defect(const TileGraph& graph) {
       return out_of_range(fmt::format("tile {}: its centroid is not finite", i));
     if (!std::isfinite(node.radius_m) || node.radius_m <= 0.0)
       return out_of_range(fmt::format("tile {}: radius {} m, allowed > 0", i, node.radius_m));
+    if (!std::isfinite(node.rigidity) || node.rigidity < 0.0)
+      return out_of_range(fmt::format("tile {}: rigidity {}, allowed >= 0", i, node.rigidity));
   }
   for (std::size_t j = 0; j < graph.joints.size(); ++j) {
     const Joint& joint = graph.joints[j];
@@ -49,6 +51,8 @@ std::optional<Failure> find_defect(const TileGraph& graph) {
                                       graph.tiles.size()));
     if (!is_finite(joint.rest_a) || !is_finite(joint.rest_b))
       return out_of_range(fmt::format("joint {}: a point is not finite", j));
+    if (!std::isfinite(joint.weight) || joint.weight < 0.0)
+      return out_of_range(fmt::format("joint {}: weight {}, allowed >= 0", j, joint.weight));
   }
   return std::nullopt;
 }

@@ -74,6 +74,7 @@ struct ReconfigurationReport {
   std::size_t replacements_refused = 0;  ///< the total error did not fall, or others overlapped
   std::size_t replacements_without_place = 0;  ///< could not be laid there, or not be solved
   std::size_t rounds = 0;                      ///< of solving
+  std::size_t stiffened = 0;                   ///< tiles that weigh more so that none overlap
   double mean_property_gap_m = 0.0;            ///< before gaps are closed
   double mean_street_gap_m = 0.0;
   double mean_deformation = 0.0;

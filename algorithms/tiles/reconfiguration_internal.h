@@ -44,7 +44,10 @@ struct SolvedLayout {
 
 /// Solves for all tiles that are not held. A tile that moves by less than kUnmoved_m stays as it
 /// is. Fails as LayoutSolver does, and with kOutOfRange where a tile would leave the working grid.
-Expected<SolvedLayout> solved(TileLayout layout, const Targets& held, const SolverOptions& options);
+/// @param stiffness  per tile, what its rigidity and its joints weigh more; the errors are those of
+///                   the layout without. Empty: 1
+Expected<SolvedLayout> solved(TileLayout layout, const Targets& held, const SolverOptions& options,
+                              std::span<const double> stiffness = {});
 
 /// Tiles that rounding errors of the solver displace by less are where they were: a millionth of a
 /// metre, a thousandth of the working grid's step.

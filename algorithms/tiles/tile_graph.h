@@ -21,12 +21,14 @@ struct Joint {
   std::uint32_t b = 0;
   Point rest_b;
   JointKind kind = JointKind::kProperty;
+  double weight = 1.0;  ///< times that of its kind, >= 0
 };
 
 /// A node of the graph.
 struct TileNode {
-  Point centroid;       ///< of the tile at rest
-  double radius_m = 1;  ///< root mean square distance of its corners from the centroid, > 0
+  Point centroid;         ///< of the tile at rest
+  double radius_m = 1;    ///< root mean square distance of its corners from the centroid, > 0
+  double rigidity = 1.0;  ///< times that of the solver, >= 0
 };
 
 /// What the constraint solver sees of a layout. A vertex that n tiles share is n (n - 1) / 2

@@ -41,7 +41,7 @@ double difference_m(const TileGraph& graph, const std::vector<Affine>& a,
                     const std::vector<Affine>& b) {
   double out = 0.0;
   for (std::size_t i = 0; i < graph.tiles.size(); ++i) {
-    const auto& [centroid, radius_m] = graph.tiles[i];
+    const auto& [centroid, radius_m, rigidity] = graph.tiles[i];
     for (const Point d : {Point{radius_m, 0.0}, Point{0.0, radius_m}, Point{}})
       out = std::max(out, distance(a[i](centroid + d), b[i](centroid + d)));
   }
@@ -65,7 +65,7 @@ TileGraph random_graph(Rng& rng) {
   TileGraph graph;
   const std::size_t tiles = 2 + rng.index(7);
   const auto near = [&](std::uint32_t tile) {
-    const auto& [centroid, radius_m] = graph.tiles[tile];
+    const auto& [centroid, radius_m, rigidity] = graph.tiles[tile];
     return centroid + Point{rng.uniform(-radius_m, radius_m), rng.uniform(-radius_m, radius_m)};
   };
   for (std::size_t i = 0; i < tiles; ++i)
