@@ -16,21 +16,21 @@ constexpr std::uint32_t kWest = 0;
 constexpr std::uint32_t kNeedle = 3;
 constexpr std::uint32_t kEast = 4;
 
-/// Five tiles in a row; the fourth has a needle down along the fifth, half a metre long and 2 mm
+/// Five tiles in a row; the fourth has a needle down along the fifth, half a metre long and 1 mm
 /// wide, as parcel 132-148 of Cambridge has. The first one is pinned.
 TileLayout row_with_needle() {
   const std::vector<TilePiece> pieces{
       {"west", "", 0, {{{-60, 0}, {-40, 0}, {-40, 20}, {-60, 20}}, {}}},
       {"far", "", 0, {{{-40, 0}, {-20, 0}, {-20, 20}, {-40, 20}}, {}}},
       {"near", "", 0, {{{-20, 0}, {0, 0}, {0, 20}, {-20, 20}}, {}}},
-      {"needle", "", 0, {{{0, 0}, {19.998, 0}, {20, -0.5}, {20, 20}, {0, 20}}, {}}},
+      {"needle", "", 0, {{{0, 0}, {19.999, 0}, {20, -0.5}, {20, 20}, {0, 20}}, {}}},
       {"east", "", 0, {{{20, -0.5}, {40, -0.5}, {40, 20}, {20, 20}}, {}}}};
   TileLayout layout = construct_layout(pieces).layout;
   layout.tiles.at(kWest).is_pinned = true;
   return layout;
 }
 
-const Affine kMotion = Affine::translation({-1.0, 0.0});
+const Affine kMotion = Affine::translation({-4.0, 0.0});
 
 Expected<Reconfiguration> east_moved(const TileLayout& layout) {
   return move_tiles(layout, {{layout.tiles.at(kEast).id}}, kMotion, {});
@@ -106,7 +106,7 @@ TEST(LayoutSolver, OwnWeightsMultiplyThoseOfTheOptions) {
     return LayoutSolver::make(of, {kWest, kEast}, with).value().solve(targets).value();
   };
   TileGraph rigid = graph;
-  rigid.tiles[kNeedle].rigidity = 8.0;
+  for (TileNode& node : rigid.tiles) node.rigidity = 8.0;
   TileGraph joined = graph;
   for (Joint& joint : joined.joints) joint.weight = 0.125;
   SolverOptions rigid_options = options;
