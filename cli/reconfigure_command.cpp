@@ -51,8 +51,11 @@ void print_step(std::size_t number, const harness::ReconfigureStep& step,
         report.before->mean_property_gap_m, tiles->mean_property_gap_m,
         report.before->mean_street_gap_m, tiles->mean_street_gap_m, report.before->mean_deformation,
         tiles->mean_deformation, tiles->largest_deformation);
-    fmt::print(" streets: {} nodes moved, {} widths, blocks {} changed, {} new, {} gone;",
-               report.edit.nodes_moved, report.edit.streets_resized, report.edit.changed.size(),
+    fmt::print(" streets: {} nodes moved, {} widths, ", report.edit.nodes_moved,
+               report.edit.streets_resized);
+    if (const std::size_t narrow = report.edit.streets_too_narrow; narrow > 0)
+      fmt::print("{} of them with fronts in the street, ", narrow);
+    fmt::print("blocks {} changed, {} new, {} gone;", report.edit.changed.size(),
                report.edit.appeared.size(), report.edit.vanished.size());
   }
   fmt::print(" {:.1f} ms\n", time_ms);
@@ -109,6 +112,8 @@ ExitStatus run(Arguments args) {
     throw InputError("plat reconfigure: give either --city or --dataset");
   if (args.dataset.empty() && (!args.near.empty() || args.count))
     throw InputError("--near, --count: go with --dataset");
+  if (!args.near.empty() && !args.count)
+    throw InputError("--near goes with --count, the number of tiles");
   const harness::ReconfigureScript script = harness::read_reconfigure_script(args.script);
   expect_output(args.out, {args.city, args.script});
   if (args.image.empty() != args.image_out.empty())

@@ -111,7 +111,7 @@ struct CityOptions {
   Jobs jobs;
 };
 
-/// The next free ids; ids are never given twice.
+/// The next free ids. They go back with undo: ids of what it took away are given again.
 struct IdCounters {
   std::uint32_t node = 0;
   std::uint32_t street = 0;
@@ -128,8 +128,9 @@ struct IdCounters {
 /// Invariants: 1. streets meet at nodes only, and noding them (node_segments) leaves them as they
 /// are;  2. the blocks are those of blocks::extract_blocks() on network_of(), bit for bit;  3. the
 /// parcels of a block are a coverage of it, or it has a failure, or the city has tiles and its
-/// blocks no parcels;  4. ids of nodes, streets, blocks, parcels and tiles are kept by edits and
-/// never used again.
+/// blocks no parcels;  4. ids of nodes, streets, blocks, parcels and tiles are kept by edits, and
+/// those of what an edit took away are not used again; undo gives back the ids of what it undoes.
+///
 /// Deviation: faces and dual are kept, not recomputed each time (ADR 0012).
 class City {
  public:

@@ -109,7 +109,7 @@ struct CutTiles {
 
 enum class Pinning { kPinned, kFree };
 
-/// Says whether edits may move tiles that they do not name. Moves nothing.
+/// Says whether edits may move tiles that they do not name. Moves nothing, names one tile or more.
 struct PinTiles {
   std::vector<tiles::TileId> tiles;
   Pinning pinning = Pinning::kPinned;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "core/working_grid.h"
 #include "editing/block_update_internal.h"
@@ -172,14 +173,12 @@ class Application {
   }
 
   Expected<EditReport> operator()(const PinTiles& edit) {
-    if (!city().tiles()) return without_tiles();
-    auto layout = std::make_shared<tiles::TileLayout>(*city().tiles());
-    for (const tiles::TileId id : edit.tiles) {
-      const auto index = tiles::find_tile(*layout, id);
-      if (!index) return unknown("tile", id.value);
-      layout->tiles[*index].is_pinned = edit.pinning == Pinning::kPinned;
-    }
-    change_.set(std::move(layout));
+    const std::shared_ptr<const tiles::TileLayout> before = city().tiles();
+    if (!before) return without_tiles();
+    auto layout = edit.pinning == Pinning::kFree ? tiles::unpin_tiles(*before, edit.tiles)
+                                                 : pinned(*before, edit.tiles);
+    if (!layout) return tl::unexpected<Failure>(std::move(layout.error()));
+    change_.set(std::make_shared<const tiles::TileLayout>(*std::move(layout)));
     return EditReport{};
   }
 
@@ -231,6 +230,13 @@ class Application {
     return fail(FailureCode::kUnknownEntity, "the city has no tiles");
   }
 
+  static Expected<tiles::TileLayout> pinned(const tiles::TileLayout& layout,
+                                            std::span<const tiles::TileId> tiles) {
+    return tiles::move_tiles(layout, tiles, Affine{}, {}).map([](tiles::Reconfiguration done) {
+      return std::move(done.layout);
+    });
+  }
+
   /// An operation on the tiles; the streets beside those that move go along.
   template <class Operation>
   Expected<EditReport> reconfigured(Operation operation) {
@@ -241,8 +247,10 @@ class Application {
     const StreetFollowing following(*before, done->layout);
     change_.set(std::make_shared<const tiles::TileLayout>(std::move(done->layout)));
     const std::map<StreetId, double> wider = width_changes(city(), *before, following);
+    std::size_t too_narrow = 0;
     for (const auto& [street, change_m] : wider) {
       const double width_m = city().streets().at(street).width_m + change_m;
+      if (width_m < kMinStreetWidth_m) ++too_narrow;
       network_.resize(street, std::clamp(width_m, kMinStreetWidth_m, kMaxStreetWidth_m),
                       streets::WidthSource::kGap);
     }
@@ -256,6 +264,7 @@ class Application {
     report->tiles = std::move(done->report);
     report->nodes_moved = moving.size();
     report->streets_resized = wider.size();
+    report->streets_too_narrow = too_narrow;
     return report;
   }
 

@@ -17,9 +17,11 @@ struct EditReport {
   std::size_t parcels_kept = 0;  ///< of the blocks above: parcels that keep their id
   std::size_t parcels_new = 0;   ///< parcels with a new id
   std::size_t parcels_lost = 0;  ///< ids that are gone
-  std::optional<tiles::ReconfigurationReport> tiles;  ///< of an edit of tiles that solved
-  std::size_t nodes_moved = 0;                        ///< with tiles
-  std::size_t streets_resized = 0;                    ///< with tiles
+  std::optional<tiles::ReconfigurationReport> tiles;  ///< of every edit of tiles but PinTiles
+  std::size_t nodes_moved = 0;                        ///< by an edit of tiles
+  std::size_t streets_resized = 0;                    ///< by an edit of tiles
+  /// Of these, whose fronts leave less than kMinStreetWidth_m: they stand in the street.
+  std::size_t streets_too_narrow = 0;
 };
 
 /// Applies edits to a city, with undo and redo of any length.
@@ -28,11 +30,17 @@ struct EditReport {
 /// blocks that differ: only they are divided again, everything else is bit-identical;  3. after any
 /// edit the blocks are those that extract_blocks() finds in the network;  4. undo and redo restore
 /// the same bytes, by putting records back;  5. an edit of streets leaves tiles as they are, an
-/// edit of tiles moves the streets beside them (street_following.h). Failures: kUnknownEntity;
-/// kOutOfRange; kStreetCollapsed; kStreetsCross; kFaceInverted (a face turned inside out, or a
-/// street jumped over another); kTilesOverlap, kNoPlace and those of tiles/reconfiguration.h. A
-/// block that cannot be divided is no failure of the edit: it is a block with a failure. Paper:
-/// [VKW12, Sec. 3.2 and 5]. Deviation: moving never makes nodes, a crossing is refused (ADR 0012).
+/// edit of tiles moves the streets beside them (street_following.h).
+///
+/// Failures: kUnknownEntity; kOutOfRange; kStreetCollapsed; kStreetsCross; kFaceInverted (a face
+/// turned inside out, or a street jumped over another); kTilesOverlap, kNoPlace and those of
+/// tiles/reconfiguration.h. A block that cannot be divided is no failure of the edit: it is a block
+/// with a failure.
+///
+/// Paper: [VKW12, Sec. 3.2 and 5].
+///
+/// Deviation: moving never makes nodes, a crossing is refused (ADR 0012).
+///
 /// @throws InputError where a style names no strategy, or options it does not have
 class Editor {
  public:

@@ -67,6 +67,13 @@ class Reconfigure(CliTest):
         self.assertLess(widths[0], widths[len(widths) // 2] - 0.5)
         self.assertGreater(widths[-1], widths[len(widths) // 2] + 0.5)
 
+    def test_fronts_that_stand_in_their_street_are_said(self):
+        pins = {"do": "pin", "tiles": {"all": True}}
+        apart = self.reconfigure(self.city(), pins, {**self.MOVE, "by": [11, 0]})
+        self.assertRegex(apart.stdout, r"2 widths, blocks 9 changed")
+        inside = self.reconfigure(self.city(), pins, {**self.MOVE, "by": [11.8, 0]})
+        self.assertRegex(inside.stdout, r"2 widths, 1 of them with fronts in the street, blocks 9 changed")
+
     def test_the_output_is_read_back_without_loss_by_both_commands(self):
         paste = [{"do": "copy", "tiles": {"at": at(30, 30)}, "as": "a"}, {"do": "paste", "group": "a", "to": at(230, 130)}]
         self.reconfigure(self.city(), self.MOVE, *paste)
@@ -138,6 +145,8 @@ class Reconfigure(CliTest):
         self.assert_refused(plat("reconfigure", script, "--out", self.path("o.gpkg")), "--city", "--dataset")
         more = ("--city", self.city(), "--out", self.path("o.gpkg"))
         self.assert_refused(plat("reconfigure", script, *more, "--count", 5), "--dataset")
+        place = ("--dataset", "cambridge_ma", "--out", self.path("o.gpkg"))
+        self.assert_refused(plat("reconfigure", script, *place, "--near", 231500, 902500), "--near", "--count")
         self.assert_refused(plat("reconfigure", script, *more, "--image", "a.tif"), "--image-out")
 
     def test_an_image_goes_along(self):

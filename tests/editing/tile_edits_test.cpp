@@ -100,18 +100,78 @@ TEST(TileEdits, ControlPointsOfCurvesGoAlong) {
   EXPECT_LT(distance(moved->second, turn(curve.second)), 0.01);
 }
 
+TEST(TileEdits, FrontsThatStandInTheirStreetAreCounted) {
+  Editor editor = pinned_city();
+  const StreetId east = street_near(editor.city(), {200, 120});
+  const auto wide = editor.apply(MoveTiles{block_tiles(4), Affine::translation({11.0, 0.0}), {}});
+  ASSERT_TRUE(wide) << wide.error().message;
+  EXPECT_EQ(wide->streets_too_narrow, 0U);
+  const auto narrow = editor.apply(MoveTiles{block_tiles(4), Affine::translation({0.8, 0.0}), {}});
+  ASSERT_TRUE(narrow) << narrow.error().message;
+  EXPECT_EQ(narrow->streets_resized, 2U);
+  EXPECT_EQ(narrow->streets_too_narrow, 1U);
+  EXPECT_EQ(editor.city().streets().at(east).width_m, kMinStreetWidth_m);
+}
+
+TEST(TileEdits, FreedTilesMakeRoomAgain) {
+  Editor editor = pinned_city();
+  const Point pinned = center_of(editor.city(), 17);
+  ASSERT_TRUE(editor.apply(MoveTiles{{{16}}, Affine::translation({0.5, 0.5}), {}}));
+  EXPECT_EQ(tile_of(editor.city(), 17).placement, Affine{});
+  const auto report = editor.apply(PinTiles{block_tiles(4), Pinning::kFree});
+  ASSERT_TRUE(report);
+  EXPECT_FALSE(report->tiles);
+  ASSERT_TRUE(editor.apply(MoveTiles{{{16}}, Affine::translation({0.5, 0.5}), {}}));
+  EXPECT_GT(distance(center_of(editor.city(), 17), pinned), 0.1);
+}
+
+/// Does one edit of each kind after the other; the bytes before and after each.
+std::vector<std::string> states_of_all_edits(Editor& editor) {
+  const auto group = std::make_shared<const tiles::TileGroup>(
+      *tiles::copy_tiles(*editor.city().tiles(), std::vector<TileId>{{1}}));
+  const std::vector<Edit> edits{
+      MoveTiles{{{5}}, Affine::translation({2.0, 1.0}), {}},
+      CutTiles{{{9}}, tiles::VacatedLand::kVacant, {}},
+      PinTiles{{{12}}},
+      PasteTiles{group, Affine::rotation(0.1, {78, 23}) * Affine::translation({100.0, 80.0}), {}},
+      CutTiles{{{28}}, tiles::VacatedLand::kClosed, {}},
+      ReplaceTiles{{.deformation_threshold = 0.001, .candidates = 1, .max_rounds = 1}, {}},
+      PinTiles{{{12}}, Pinning::kFree},
+      RelaxTiles{}};
+  std::vector<std::string> states{bytes_of(editor.city())};
+  for (const Edit& edit : edits) {
+    const auto report = editor.apply(edit);
+    EXPECT_TRUE(report) << edit_name(edit) << ": " << report.error().message;
+    states.push_back(bytes_of(editor.city()));
+    EXPECT_NE(states.back(), states[states.size() - 2]) << edit_name(edit);
+  }
+  return states;
+}
+
 TEST(TileEdits, UndoAndRedoRestoreTheSameBytes) {
   Editor editor(tiled_grid_city(4, 4));
-  const std::string first = bytes_of(editor.city());
-  ASSERT_TRUE(editor.apply(MoveTiles{{{5}}, Affine::translation({2.0, 1.0}), {}}));
-  ASSERT_TRUE(editor.apply(CutTiles{{{9}}, tiles::VacatedLand::kVacant, {}}));
-  ASSERT_TRUE(editor.apply(PinTiles{{{12}}}));
-  const std::string last = bytes_of(editor.city());
-  EXPECT_NE(first, last);
-  for (int i = 0; i < 3; ++i) editor.undo();
-  EXPECT_EQ(bytes_of(editor.city()), first);
-  for (int i = 0; i < 3; ++i) editor.redo();
-  EXPECT_EQ(bytes_of(editor.city()), last);
+  const std::vector<std::string> states = states_of_all_edits(editor);
+  ASSERT_EQ(editor.undo_count() + 1, states.size());
+  for (std::size_t i = states.size() - 1; i > 0; --i) {
+    editor.undo();
+    EXPECT_EQ(bytes_of(editor.city()), states[i - 1]) << "edit " << i;
+  }
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    editor.redo();
+    EXPECT_EQ(bytes_of(editor.city()), states[i]) << "edit " << i;
+  }
+}
+
+TEST(TileEdits, IdsOfWhatWasUndoneAreGivenAgain) {
+  Editor editor(tiled_grid_city(4, 4));
+  const auto appeared = [&](std::uint32_t cut) {
+    const auto report = editor.apply(CutTiles{{{cut}}, tiles::VacatedLand::kVacant, {}});
+    return report.value().tiles.value().appeared;
+  };
+  const std::vector<TileId> first = appeared(9);
+  editor.undo();
+  EXPECT_EQ(appeared(5), first);
+  EXPECT_NE(appeared(9), first);
 }
 
 TEST(TileEdits, AnEditThatFailsChangesNothing) {
@@ -125,6 +185,8 @@ TEST(TileEdits, AnEditThatFailsChangesNothing) {
   };
   refused(MoveTiles{{{999}}, Affine::translation({1, 0}), {}}, FailureCode::kUnknownEntity);
   refused(PinTiles{{{0}, {999}}}, FailureCode::kUnknownEntity);
+  refused(PinTiles{{{0}, {999}}, Pinning::kFree}, FailureCode::kUnknownEntity);
+  refused(PinTiles{}, FailureCode::kUnknownEntity);
   refused(MoveTiles{{{0}}, Affine::translation({150, 0}), {}}, FailureCode::kTilesOverlap);
   EXPECT_EQ(editor.undo_count(), 0U);
 }
