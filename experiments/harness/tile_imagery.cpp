@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "editing/street_following.h"
@@ -51,7 +54,7 @@ class Groups {
   std::vector<double> area_m2_;
 };
 
-/// Calls visit(tile, rest, tile, rest) for every two tiles with a point in common.
+/// Calls visit(tile, rest, tile, rest) for every two tiles with a vertex in common.
 template <class Visit>
 void for_each_joint(const TileLayout& layout, Visit visit) {
   std::vector<std::vector<std::pair<std::uint32_t, Point>>> around(layout.vertices.size());
@@ -66,8 +69,27 @@ void for_each_joint(const TileLayout& layout, Visit visit) {
         visit(corners[i].first, corners[i].second, corners[k].first, corners[k].second);
     }
   }
-  for (const tiles::StreetLink& link : layout.links)
-    visit(link.a, link.rest_a, link.b, link.rest_b);
+}
+
+/// Whether each tile was observed where one of a lower id was: the same land, there twice.
+std::vector<bool> copies_of(const TileLayout& layout) {
+  std::map<std::string_view, std::vector<std::uint32_t>> of_source;
+  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
+    if (const Tile& tile = layout.tiles[i]; !tile.source_id.empty())
+      of_source[tile.source_id].push_back(i);
+  }
+  std::vector<bool> out(layout.tiles.size());
+  for (const auto& [source, members] : of_source) {
+    if (members.size() < 2) continue;
+    for (const std::uint32_t i : members) {
+      const Point inside = interior_point(tiles::rest_shape_of(layout.tiles[i]));
+      out[i] = std::ranges::any_of(members, [&](std::uint32_t other) {
+        return layout.tiles[other].id < layout.tiles[i].id &&
+               locate(tiles::rest_shape_of(layout.tiles[other]), inside) == Side::kInside;
+      });
+    }
+  }
+  return out;
 }
 
 geodata::RasterGrid grid_of(const TileLayout& layout, const geodata::RasterGrid& source) {
@@ -95,13 +117,19 @@ std::vector<bool> tiles_from_elsewhere(const TileLayout& layout) {
   for_each_joint(layout, [&](std::uint32_t a, Point rest_a, std::uint32_t b, Point rest_b) {
     if (is_same(rest_a, rest_b)) groups.join(a, b);
   });
+  for (const tiles::StreetLink& link : layout.links) {
+    if (is_same(link.rest_a, link.rest_b)) groups.join(link.a, link.b);
+  }
+  // Not by links: those of a closed cut join what was observed on two sides of the tile cut.
   std::vector<bool> has_come(layout.tiles.size());
   for_each_joint(layout, [&](std::uint32_t a, Point rest_a, std::uint32_t b, Point rest_b) {
     if (is_same(rest_a, rest_b) || groups.root(a) == groups.root(b)) return;
     has_come[groups.root(groups.area(a) < groups.area(b) ? a : b)] = true;
   });
-  std::vector<bool> out;
-  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) out.push_back(has_come[groups.root(i)]);
+  std::vector<bool> out = copies_of(layout);
+  for (std::uint32_t i = 0; i < layout.tiles.size(); ++i) {
+    if (has_come[groups.root(i)]) out[i] = true;
+  }
   return out;
 }
 

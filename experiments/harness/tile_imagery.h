@@ -13,7 +13,8 @@ namespace plat::harness {
 
 /// Which tiles stand among others that they were not observed among: copies and replacements. Tiles
 /// belong together where they have a shared vertex or a link at one place at rest; where two that
-/// are joined do not, the smaller group is the one that came.
+/// share a vertex do not, the smaller group is the one that came. So is a tile that shows the land
+/// of another one, of a lower id.
 std::vector<bool> tiles_from_elsewhere(const tiles::TileLayout& layout);
 
 /// What each tile shows: its own piece of the image of the city at rest, carried by its placement;

@@ -180,6 +180,39 @@ TEST(TileImagery, KnowsTilesThatCameFromElsewhere) {
   EXPECT_EQ(tiles_from_elsewhere(row(8, 3, 5, {300.0, 100.0})), expected);
 }
 
+/// A row of three tiles, and one across a street that is linked to its first one.
+TileLayout row_and_one(Point rest_in_row, Point rest_across) {
+  TileLayout out = row(3, 3, 3, {});
+  TileLayout one = row(1, 1, 1, {});
+  for (tiles::LayoutVertex& vertex : one.vertices) {
+    vertex.at = vertex.at + Point{0.0, 30.0};
+    out.vertices.push_back(vertex);
+  }
+  tiles::Tile tile = one.tiles.front();
+  tile.id = {3};
+  tile.block = 1;
+  for (tiles::Corner& corner : tile.rings[0])
+    corner = {corner.vertex + 8, corner.rest + Point{0.0, 30.0}};
+  out.tiles.push_back(std::move(tile));
+  out.next_id = 4;
+  out.links.push_back({0, rest_in_row, 3, rest_across, 10.0});
+  return out;
+}
+
+TEST(TileImagery, LinksOfAClosedCutBringNothingFromElsewhere) {
+  const TileLayout closed = row_and_one({5.0, 45.0}, {5.0, 25.0});
+  EXPECT_EQ(tiles_from_elsewhere(closed), std::vector<bool>(4, false));
+}
+
+TEST(TileImagery, ATileThatShowsAnothersLandIsACopy) {
+  TileLayout copied = row_and_one({5.0, 25.0}, {25.0, 25.0});
+  tiles::Tile& copy = copied.tiles[3];
+  copied.tiles[2].source_id = copy.source_id = "lot 2";
+  copy.placement = Affine::translation({-20.0, 30.0});
+  for (tiles::Corner& corner : copy.rings[0]) corner.rest = corner.rest + Point{20.0, -30.0};
+  EXPECT_EQ(tiles_from_elsewhere(copied), (std::vector<bool>{false, false, false, true}));
+}
+
 TEST(TileImagery, TilesFromElsewhereDoNotPullTheGround) {
   const auto still = ground_at_rest(row(8, 3, 5, {300.0, 100.0}));
   EXPECT_EQ(still({40.0, 25.0}), Point(40.0, 25.0));
