@@ -67,7 +67,8 @@ class Listing(unittest.TestCase):
     def test_scripts_name_the_data_sets_they_read(self):
         for entry in ENTRIES.values():
             text = (FIGURES / entry["script"]).read_text(encoding="utf-8")
-            self.assertEqual(set(re.findall(r'Window\(\s*"(\w+)"', text)), set(entry["datasets"]), entry["id"])
+            named = set(re.findall(r'(?:Window\(|"dataset":)\s*"(\w+)"', text))
+            self.assertEqual(named, set(entry["datasets"]), entry["id"])
 
 
 class Claims(unittest.TestCase):
